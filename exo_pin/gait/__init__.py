@@ -1,0 +1,6 @@
+"""A walk as data: angles over time, contact events, and the normative walk at five speeds."""
+
+from exo_pin.gait.event import EVENT_KINDS, Event
+from exo_pin.gait.walk import Gait
+
+__all__ = ["EVENT_KINDS", "Event", "Gait"]

@@ -1,0 +1,109 @@
+"""What a walk must be before anything is computed from it; every refusal says what, where and why."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import GaitError
+from exo_pin.gait import rigid
+from exo_pin.gait.event import Event
+
+Array = NDArray[np.float64]
+
+LARGEST_ANGLE = np.pi
+"""No joint of a leg turns further [rad]; a larger number is nearly always degrees taken for radians."""
+
+LARGEST_TIME = 1e9
+"""Thirty years [s]: a number beyond is no time of a walk."""
+
+SHORTEST_STEP = 1e-9
+"""Samples closer than this [s] are the same sample: their differences would only be rounding."""
+
+UNIFORM = 1e-6
+"""How far the samples of a periodic gait may lie off an even grid, as a fraction of the step."""
+
+
+def read_only(array: Array) -> Array:
+    """The same array, closed for writing."""
+    array.setflags(write=False)
+    return array
+
+
+def frozen(values: ArrayLike, name: str) -> Array:
+    """A read-only copy as floats; raises `GaitError` if it cannot be one."""
+    try:
+        return read_only(np.array(values, dtype=np.float64))
+    except (TypeError, ValueError) as error:
+        raise GaitError(f"{name} is not an array of numbers: {error}") from error
+
+
+def check_time(time: Array, periodic: bool) -> None:
+    """Raises `GaitError` unless `time` is `(n,)`, n >= 2, finite and increasing; even from 0 if periodic."""
+    if time.ndim != 1 or len(time) < 2:
+        raise GaitError(f"time has shape {time.shape}, expected (n,) with at least 2 samples")
+    bad = np.flatnonzero(~(np.abs(time) <= LARGEST_TIME))
+    if bad.size:
+        raise GaitError(f"time of frame {bad[0]} is {time[bad[0]]:g}, expected seconds")
+    late = np.flatnonzero(np.diff(time) < SHORTEST_STEP)
+    if late.size:
+        k = int(late[0])
+        raise GaitError(
+            f"time does not increase from frame {k} ({time[k]:.12g} s) "
+            f"to frame {k + 1} ({time[k + 1]:.12g} s); expected strictly increasing seconds"
+        )
+    if periodic:
+        _check_cycle(time)
+
+
+def _check_cycle(time: Array) -> None:
+    if time[0] != 0:
+        raise GaitError(f"a periodic gait stores [0, T): its time starts at 0, not at {time[0]:g} s")
+    step = time[-1] / (len(time) - 1)
+    off = np.abs(time - step * np.arange(len(time)))
+    if off.max() > UNIFORM * step:
+        raise GaitError(
+            f"a periodic gait is evenly sampled, but frame {int(off.argmax())} lies {off.max():.3g} s off "
+            "the grid; resample it before it is marked as periodic"
+        )
+
+
+def check_angles(q: Array, n: int) -> None:
+    """Raises `GaitError` unless `q` is `(n, 12)`, finite and within half a turn."""
+    if q.shape != (n, len(JOINTS)):
+        raise GaitError(
+            f"q has shape {q.shape}, expected ({n}, {len(JOINTS)}): a row per time, columns as JOINTS"
+        )
+    for bad, hint in (
+        (~np.isfinite(q), "expected a finite angle"),
+        (np.abs(q) > LARGEST_ANGLE, "more than half a turn; degrees given as radians?"),
+    ):
+        if bad.any():
+            frame, joint = np.argwhere(bad)[0]
+            raise GaitError(f"{JOINTS[joint]} of frame {frame} is {q[frame, joint]:g} rad: {hint}")
+
+
+def check_base(base: Array, n: int) -> None:
+    """Raises `GaitError` unless `base` is `(n, 4, 4)` rigid poses."""
+    if base.shape != (n, 4, 4):
+        raise GaitError(f"base has shape {base.shape}, expected ({n}, 4, 4): a pose T_world_pelvis per time")
+    wrong = rigid.not_rigid(base)
+    if wrong is not None:
+        raise GaitError(
+            f"base of frame {wrong} is no rigid pose; expected a rotation, metres and last row 0 0 0 1"
+        )
+
+
+def check_events(events: Sequence[Event], start: float, duration: float, periodic: bool) -> None:
+    """Raises `GaitError` for an event outside the walk: [start, end), or [start, end] if not periodic."""
+    end = start + duration
+    for event in events:
+        inside = start <= event.time < end if periodic else start <= event.time <= end
+        if not inside:
+            raise GaitError(
+                f"event {event.kind} {event.side} at {event.time:g} s "
+                f"lies outside the walk, {start:g} to {end:g} s"
+            )

@@ -1,0 +1,96 @@
+"""Curves over time: derivatives and resampling of `(n, m)` samples, periodic or not."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def derivative(time: Array, y: Array, order: int, period: float | None) -> Array:
+    """First or second time derivative of the samples.
+
+    Args:
+        time: `(n,)` strictly increasing [s].
+        y: `(n, m)` samples.
+        order: 1 or 2.
+        period: The period of evenly sampled periodic data (exact for band-limited data), or None
+            (then second-order accurate differences, on uneven time and at the ends too) [s].
+
+    Returns:
+        `(n, m)` derivatives.
+    """
+    return _differences(time, y, order) if period is None else _spectral(y, order, period)
+
+
+def resampled(time: Array, y: Array, new: Array, periodic: bool) -> Array:
+    """The curve through `(n, m)` samples at the evenly spaced times `new`.
+
+    Args:
+        time: `(n,)` times of the samples [s].
+        y: `(n, m)` samples.
+        new: `(k,)` times; for periodic data they must divide the same period evenly [s].
+        periodic: Trigonometric interpolation if True, else C1 cubic Hermite pieces.
+
+    Returns:
+        `(k, m)` values.
+    """
+    return _trigonometric(y, len(new)) if periodic else _hermite(time, y, new)
+
+
+def _spectral(y: Array, order: int, period: float) -> Array:
+    n = len(y)
+    factor = (2j * np.pi * np.fft.rfftfreq(n, 1 / n) / period) ** order
+    if n % 2 == 0 and order % 2:
+        factor[-1] = 0  # the highest cosine has its derivative's zeros exactly on the samples
+    return np.fft.irfft(factor[:, None] * np.fft.rfft(y, axis=0), n, axis=0)
+
+
+def _trigonometric(y: Array, k: int) -> Array:
+    """Evaluate the Fourier interpolant on k even points: frequencies that look alike there are added."""
+    n = len(y)
+    c = np.fft.fft(y, axis=0) / n
+    frequency = np.round(np.fft.fftfreq(n, 1 / n)).astype(int)
+    if n % 2 == 0:  # the highest frequency belongs half to each sign, or the curve would not be real
+        c[n // 2] /= 2
+        c = np.concatenate([c, c[n // 2 : n // 2 + 1]])
+        frequency = np.append(frequency, n // 2)
+    folded = np.zeros((k, y.shape[1]), dtype=complex)
+    np.add.at(folded, frequency % k, c)
+    return np.fft.ifft(folded, axis=0).real * k
+
+
+def _differences(time: Array, y: Array, order: int) -> Array:
+    """Differentiate the polynomial through each sample's neighbours: order + 2 points give 2nd order."""
+    n = len(time)
+    width = min(order + 2, n)
+    if width <= order:
+        return np.zeros_like(y)  # two samples have no second derivative
+    first = np.clip(np.arange(n) - 1, 0, n - width)
+    stencil = first[:, None] + np.arange(width)  # (n, width)
+    away = time[stencil] - time[:, None]
+    scale = np.abs(away).max(axis=1)
+    powers = (away / scale[:, None])[:, None, :] ** np.arange(width)[:, None]  # (n, power, width)
+    right = np.zeros((n, width, 1))
+    right[:, order, 0] = math.factorial(order)
+    weights = np.linalg.solve(powers, right)[:, :, 0] / scale[:, None] ** order
+    derivatives = np.zeros_like(y)
+    for i in range(width):
+        derivatives += weights[:, i, None] * y[stencil[:, i]]
+    return derivatives
+
+
+def _hermite(time: Array, y: Array, new: Array) -> Array:
+    slope = _differences(time, y, 1)
+    i = np.clip(np.searchsorted(time, new, side="right") - 1, 0, len(time) - 2)
+    h = (time[i + 1] - time[i])[:, None]
+    s = (new - time[i])[:, None] / h
+    return np.asarray(
+        (1 + 2 * s) * (1 - s) ** 2 * y[i]
+        + s * (1 - s) ** 2 * h * slope[i]
+        + s**2 * (3 - 2 * s) * y[i + 1]
+        - s**2 * (1 - s) * h * slope[i + 1]
+    )

@@ -1,0 +1,90 @@
+"""Contact events of the feet, and which foot is on the ground between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import SIDES
+from exo_pin.errors import GaitError, UnknownNameError
+
+EVENT_KINDS = ("heel_strike", "toe_off")
+"""What can happen to a foot: it meets the ground with the heel, or leaves it with the toe."""
+
+ON_A_SAMPLE = 1e-9
+"""An event this close to a sample is meant to lie on it, as a fraction of the walk's duration."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """One contact event of one foot.
+
+    Attributes:
+        time: When it happens, on the gait's own time axis [s].
+        kind: `"heel_strike"` or `"toe_off"`.
+        side: `"left"` or `"right"`.
+        source: Who says so, e.g. `"force plate"`.
+
+    Raises:
+        GaitError: If the time is not finite, or kind or side are unknown.
+    """
+
+    time: float
+    kind: str
+    side: str
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.time):
+            raise GaitError(f"event {self.kind} {self.side}: time is {self.time}, expected finite seconds")
+        object.__setattr__(self, "time", float(self.time))  # numpy scalars would print as np.float64(...)
+        for what, value, known in (("kind", self.kind, EVENT_KINDS), ("side", self.side, SIDES)):
+            if value not in known:
+                choices = " or ".join(map(repr, known))
+                raise GaitError(f"event at {self.time:g} s: {what} is {value!r}, expected {choices}")
+
+
+def stance(
+    time: NDArray[np.float64], events: Sequence[Event], side: str, *, duration: float, periodic: bool
+) -> NDArray[np.bool_]:
+    """Whether a foot is on the ground: from its heel strike until its toe-off.
+
+    Args:
+        time: `(n,)` [s].
+        events: Sorted by time.
+        side: `"left"` or `"right"`.
+        duration: Length of the walk [s].
+        periodic: Whether the last event of the cycle also tells what is before the first.
+
+    Returns:
+        `(n,)` contact.
+
+    Raises:
+        GaitError: If the side has no events, or they do not take turns (then contact is unknown).
+        UnknownNameError: If there is no such side.
+    """
+    if side not in SIDES:
+        raise UnknownNameError("side", side, SIDES)
+    mine = [event for event in events if event.side == side]
+    if not mine:
+        raise GaitError(f"the gait has no events of the {side} foot, so its contact is unknown")
+    _check_turns(mine, periodic)
+    times = np.array([event.time for event in mine]) - ON_A_SAMPLE * duration
+    latest = np.searchsorted(times, time, side="right") - 1
+    strikes = np.array([event.kind == "heel_strike" for event in mine])
+    before = not strikes[0]  # before its first event the foot is in the state which that event ends
+    return np.where(latest < 0, before, strikes[latest])
+
+
+def _check_turns(events: Sequence[Event], periodic: bool) -> None:
+    pairs = [*pairwise(events), *([(events[-1], events[0])] if periodic else [])]
+    for first, second in pairs:
+        if first.kind == second.kind:
+            raise GaitError(
+                f"two {first.side} {first.kind} events follow each other, "
+                f"at {first.time:g} s and {second.time:g} s; heel_strike and toe_off must take turns"
+            )

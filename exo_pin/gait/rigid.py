@@ -1,0 +1,41 @@
+"""Rigid poses that vary in time: their check, their nearest rotation, their angular velocity."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+ORTHONORMAL = 1e-6
+"""Largest entry of R^T R - I that still counts as a rotation: seven digits, what files carry."""
+
+FARTHEST = 1e6
+"""A pelvis further away than this [m] is a mistake of units."""
+
+
+def not_rigid(T: Array) -> int | None:
+    """Index of the first of the `(n, 4, 4)` poses that is not rigid, or None if all are."""
+    R = T[:, :3, :3]
+    with np.errstate(invalid="ignore", over="ignore"):  # NaN and huge numbers fail the comparisons below
+        skew = np.abs(np.swapaxes(R, 1, 2) @ R - np.eye(3)).max(axis=(1, 2))
+        good = (skew <= ORTHONORMAL) & (np.linalg.det(R) > 0) & (np.abs(T[:, :3, 3]) <= FARTHEST).all(axis=1)
+    good &= (T[:, 3] == [0.0, 0.0, 0.0, 1.0]).all(axis=1)
+    return None if good.all() else int(np.argmin(good))
+
+
+def nearest_pose(T: Array) -> Array:
+    """The `(n, 4, 4)` matrices with the nearest rotations (polar, by SVD) in them."""
+    pose = np.tile(np.eye(4), (len(T), 1, 1))
+    U, _, Vt = np.linalg.svd(T[:, :3, :3])
+    U[:, :, 2] *= np.linalg.det(U @ Vt)[:, None]  # no reflections
+    pose[:, :3, :3] = U @ Vt
+    pose[:, :3, 3] = T[:, :3, 3]
+    return pose
+
+
+def angular_velocity(R: Array, dR: Array) -> Array:
+    """`(n, 3)` angular velocity [rad/s], world axes, from `(n, 3, 3)` rotations and derivatives."""
+    W = dR @ np.swapaxes(R, 1, 2)  # skew up to the differencing's error
+    W = (W - np.swapaxes(W, 1, 2)) / 2
+    return np.stack([W[:, 2, 1], W[:, 0, 2], W[:, 1, 0]], axis=1)

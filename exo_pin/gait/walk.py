@@ -1,0 +1,183 @@
+"""A walk as data: joint angles over time, the pelvis's motion and the foot contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.errors import GaitError
+from exo_pin.gait import curves, rigid
+from exo_pin.gait.checks import check_angles, check_base, check_events, check_time, frozen, read_only
+from exo_pin.gait.event import Event, stance
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Gait:
+    """Joint angles over time, in the order of `JOINTS` and the clinical hip convention.
+
+    A periodic gait stores [0, T): the sample at T is the sample at 0 and is never stored. Its base returns
+    to the same place after every cycle (walking on the spot, as on a treadmill).
+
+    Attributes:
+        time: `(n,)` strictly increasing [s]; a periodic gait starts at 0 and is evenly sampled.
+        q: `(n, 12)` joint angles [rad].
+        base: `(n, 4, 4)` pose of the pelvis in the world, or None if the pelvis does not move [m].
+        events: Foot contacts, sorted by time.
+        periodic: Whether the walk repeats.
+        source: Where the numbers come from, in words.
+
+    Raises:
+        GaitError: If shapes, time, angles, base or events are unusable; the message says which and where.
+    """
+
+    time: Array
+    q: Array
+    base: Array | None = None
+    events: tuple[Event, ...] = ()
+    periodic: bool = False
+    source: str = ""
+
+    def __init__(  # written out: numpy's array-likes go in, read-only arrays come out
+        self,
+        time: ArrayLike,
+        q: ArrayLike,
+        *,
+        base: ArrayLike | None = None,
+        events: Iterable[Event] = (),
+        periodic: bool = False,
+        source: str = "",
+    ) -> None:
+        put = object.__setattr__  # the dataclass is frozen for everyone else
+        put(self, "time", frozen(time, "time"))
+        put(self, "q", frozen(q, "q"))
+        put(self, "base", None if base is None else frozen(base, "base"))
+        put(self, "periodic", bool(periodic))
+        put(self, "source", str(source))
+        check_time(self.time, self.periodic)
+        check_angles(self.q, len(self.time))
+        if self.base is not None:
+            check_base(self.base, len(self.time))
+        put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
+        check_events(self.events, float(self.time[0]), self.duration, self.periodic)
+
+    def __len__(self) -> int:
+        """Number of samples n."""
+        return len(self.time)
+
+    @property
+    def duration(self) -> float:
+        """Length in time [s]: the period T of a periodic gait, else last minus first sample."""
+        n = len(self)
+        span = float(self.time[-1] - self.time[0])
+        return span * n / (n - 1) if self.periodic else span
+
+    @cached_property
+    def dq(self) -> Array:
+        """`(n, 12)` joint velocities [rad/s].
+
+        Periodic gaits: exact for band-limited curves (spectral); else second-order differences.
+        """
+        return read_only(curves.derivative(self.time, self.q, 1, self._period))
+
+    @cached_property
+    def ddq(self) -> Array:
+        """`(n, 12)` joint accelerations [rad/s^2], made as `dq` is; it amplifies noise: filter recordings."""
+        return read_only(curves.derivative(self.time, self.q, 2, self._period))
+
+    @cached_property
+    def base_velocity(self) -> Array | None:
+        """`(n, 6)` velocity of the pelvis, linear first, world axes [m/s, rad/s], or None."""
+        if self.base is None:
+            return None
+        flat = self.base.reshape(len(self), 16)
+        dT = curves.derivative(self.time, flat, 1, self._period).reshape(-1, 4, 4)
+        omega = rigid.angular_velocity(self.base[:, :3, :3], dT[:, :3, :3])
+        return read_only(np.hstack([dT[:, :3, 3], omega]))
+
+    @cached_property
+    def base_acceleration(self) -> Array | None:
+        """`(n, 6)` acceleration of the pelvis, linear first, world axes [m/s^2, rad/s^2], or None."""
+        if self.base is None or self.base_velocity is None:
+            return None
+        linear = curves.derivative(self.time, self.base[:, :3, 3], 2, self._period)
+        angular = curves.derivative(self.time, self.base_velocity[:, 3:], 1, self._period)
+        return read_only(np.hstack([linear, angular]))
+
+    def resampled(self, n: int) -> Gait:
+        """The same walk with `n` evenly spaced samples.
+
+        Periodic gaits are interpolated by their Fourier series, others by C1 cubic Hermite pieces. The base
+        is interpolated with them, entry by entry, and every pose is then put back on the nearest rotation.
+
+        Raises:
+            GaitError: If `n` is less than 2.
+        """
+        if n < 2:
+            raise GaitError(f"resampled to {n} samples: expected at least 2")
+        start, span = self.time[0], self.duration
+        time = start + span * np.arange(n) / n if self.periodic else np.linspace(start, self.time[-1], n)
+        q = curves.resampled(self.time, self.q, time, self.periodic)
+        base = None
+        if self.base is not None:
+            flat = curves.resampled(self.time, self.base.reshape(-1, 16), time, self.periodic)
+            base = rigid.nearest_pose(flat.reshape(n, 4, 4))
+        return replace(self, time=time, q=q, base=base)
+
+    def repeated(self, k: int) -> Gait:
+        """`k` cycles of a periodic gait as one longer periodic gait, events included.
+
+        Raises:
+            GaitError: If the gait is not periodic or `k` is less than 1.
+        """
+        if not self.periodic:
+            raise GaitError("a gait that is not periodic cannot be repeated: its ends do not meet")
+        if k < 1:
+            raise GaitError(f"repeated {k} times: expected at least 1")
+        n, T = len(self), self.duration
+        time = T * np.arange(k * n) / n
+        base = None if self.base is None else np.tile(self.base, (k, 1, 1))
+        events = (replace(event, time=event.time + i * T) for i in range(k) for event in self.events)
+        return replace(self, time=time, q=np.tile(self.q, (k, 1)), base=base, events=tuple(events))
+
+    def mirrored(self) -> Gait:
+        """The walk seen in a mirror: left and right change places, the base goes through the x-z plane."""
+        mirror = np.diag([1.0, -1.0, 1.0, 1.0])
+        other = dict(zip(SIDES, reversed(SIDES), strict=True))
+        return replace(
+            self,
+            q=np.roll(self.q, len(JOINTS) // 2, axis=1),  # same number left and right = mirror image
+            base=None if self.base is None else mirror @ self.base @ mirror,
+            events=tuple(replace(event, side=other[event.side]) for event in self.events),
+        )
+
+    def slowed(self, f: float) -> Gait:
+        """The same walk `f` times slower, from the same first time on (`f < 1` is faster).
+
+        Raises:
+            GaitError: If `f` is not a positive finite number.
+        """
+        if not (np.isfinite(f) and f > 0):
+            raise GaitError(f"slowed by {f}: expected a positive factor, e.g. 2.0 for half the speed")
+        start = float(self.time[0])
+        events = (replace(event, time=start + f * (event.time - start)) for event in self.events)
+        return replace(self, time=start + f * (self.time - start), events=tuple(events))
+
+    def stance(self, side: str) -> NDArray[np.bool_]:
+        """`(n,)` whether the foot is on the ground, from the events: heel strike until toe-off.
+
+        Raises:
+            GaitError: If the side has no events, or they do not take turns (then contact is unknown).
+            UnknownNameError: If there is no such side.
+        """
+        return stance(self.time, self.events, side, duration=self.duration, periodic=self.periodic)
+
+    @property
+    def _period(self) -> float | None:
+        return self.duration if self.periodic else None
