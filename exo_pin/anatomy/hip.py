@@ -1,0 +1,63 @@
+"""Hip angles in one order of axes or another: the same rotation, other numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy.names import HIP_ORDERS, SIDES
+from exo_pin.errors import UnknownNameError
+
+Array = npt.NDArray[np.float64]
+
+
+def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Array:
+    """Hip angles of the order `source` as those of the order `target` that make the same rotation.
+
+    Args:
+        angles: Flexion, adduction, internal rotation (..., 3) [rad], always in this order of columns.
+        side: `"left"` or `"right"`.
+        source: `"clinical"` (flexion, adduction, rotation from the pelvis outwards) or `"yaw_roll_pitch"`.
+        target: The order that is wanted.
+
+    Returns:
+        Flexion, adduction, internal rotation (..., 3) [rad]; adduction within +-90 degrees.
+
+    Raises:
+        UnknownNameError: A side or an order is unknown.
+    """
+    for order in (source, target):
+        if order not in HIP_ORDERS:
+            raise UnknownNameError("hip order", order, HIP_ORDERS)
+    angles = np.asarray(angles, dtype=float)
+    if source == target:
+        return angles.copy()
+    signs = _signs(side)
+    a, b, c = np.moveaxis(angles * signs, -1, 0)
+    if source == "clinical":
+        return np.stack(_zxy_of_yxz(a, b, c), axis=-1) * signs
+    return np.stack(_yxz_of_zxy(a, b, c), axis=-1) * signs
+
+
+def _signs(side: str) -> Array:
+    """Flexion turns about -y; adduction and internal rotation about +x and +z on the right, -x and -z left."""
+    if side not in SIDES:
+        raise UnknownNameError("side", side, SIDES)
+    s = -1.0 if side == "left" else 1.0
+    return np.array([-1.0, s, s])
+
+
+def _zxy_of_yxz(a: Array, b: Array, c: Array) -> tuple[Array, Array, Array]:
+    """Angles (about y, x, z) of R = Rz Rx Ry, for R = Ry(a) Rx(b) Rz(c)."""
+    sa, ca, sb, cb, sc, cc = np.sin(a), np.cos(a), np.sin(b), np.cos(b), np.sin(c), np.cos(c)
+    r01, r11 = sa * sb * cc - ca * sc, cb * cc
+    r20, r21, r22 = ca * sb * sc - sa * cc, ca * sb * cc + sa * sc, ca * cb
+    return np.arctan2(-r20, r22), np.arctan2(r21, np.hypot(r20, r22)), np.arctan2(-r01, r11)
+
+
+def _yxz_of_zxy(a: Array, b: Array, c: Array) -> tuple[Array, Array, Array]:
+    """Angles (about y, x, z) of R = Ry Rx Rz, for R = Rz(c) Rx(b) Ry(a)."""
+    sa, ca, sb, cb, sc, cc = np.sin(a), np.cos(a), np.sin(b), np.cos(b), np.sin(c), np.cos(c)
+    r02, r22 = cc * sa + sc * sb * ca, cb * ca
+    r10, r11, r12 = sc * ca + cc * sb * sa, cc * cb, sc * sa - cc * sb * ca
+    return np.arctan2(r02, r22), np.arctan2(-r12, np.hypot(r10, r11)), np.arctan2(r10, r11)

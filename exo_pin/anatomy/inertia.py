@@ -1,0 +1,126 @@
+"""Mass, centre of mass and inertia of every link: the wearer's segments and the device's hardware.
+
+Link names are those of the URDF. A link's inertia is the sum of its parts, each a `Part` placed in the link's
+frame (x forward, y left, z up at q = 0; origin at the link's joint), brought together by the parallel-axis
+theorem.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import tables
+from exo_pin.anatomy.body import Body, Leg
+from exo_pin.anatomy.names import SIDES
+
+Array = npt.NDArray[np.float64]
+
+
+class Part(NamedTuple):
+    """A rigid part of a link.
+
+    Attributes:
+        mass: [kg].
+        centre: Centre of mass in the link's frame (3,) [m].
+        inertia: About the centre of mass, in the link's axes (3, 3) [kg m^2].
+    """
+
+    mass: float
+    centre: Array
+    inertia: Array
+
+
+def total(parts: Iterable[Part]) -> Part:
+    """The parts as one body (parallel-axis theorem)."""
+    parts = list(parts)
+    mass = sum(part.mass for part in parts)
+    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for part in parts:
+        d = part.centre - centre
+        inertia += part.inertia + part.mass * (d @ d * np.eye(3) - np.outer(d, d))
+    return Part(mass, centre, inertia)
+
+
+def link_inertias(body: Body) -> dict[str, Part]:
+    """Mass, centre and inertia of each link by link name: pelvis, then six links a leg."""
+    links = {"pelvis": total([*_upper_body(body), _waist(body)])}
+    for side, s in zip(SIDES, (1.0, -1.0), strict=True):
+        for name, parts in _leg(body, body.leg(side), s).items():
+            links[f"{side}_{name}"] = total(parts)
+    return links
+
+
+def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Part]]:
+    """Parts of a leg's links; `s` is +1 on the left. The hardware runs beside the leg, at the waist ring."""
+    y = s * ((body.waist_width - body.hip_width) / 2 + 0.015)
+    wearer = _wearer_leg(body, leg) if body.wearer else {}
+    hardware = {
+        "hip_1": _box(body.hip_hardware, (-0.03, y, 0.0), (0.10, 0.06, 0.10)),
+        "hip_2": _box(body.hip_hardware, (-0.03, y, 0.0), (0.10, 0.06, 0.10)),
+        "thigh": _box(body.thigh_hardware, (0.0, y, -leg.thigh / 2), (0.05, 0.03, leg.thigh)),
+        "shank": _box(body.shank_hardware, (0.0, y, -leg.shank / 2), (0.05, 0.03, leg.shank)),
+        "ankle": _box(body.ankle_hardware, (0.0, y, 0.0), (0.06, 0.05, 0.06)),
+        "sole_plate": _box(
+            body.foot_hardware,
+            (leg.foot_length / 2 - leg.heel, 0.0, 0.006 - leg.ankle_height),
+            (leg.foot_length, leg.foot_width, 0.012),
+        ),
+    }
+    return {name: [part, *wearer.get(name, [])] for name, part in hardware.items()}
+
+
+def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Part]]:
+    table = tables.DE_LEVA[body.sex]
+    along = table["foot"].centre * leg.foot_length - leg.heel
+    foot = _segment("foot", body.sex, leg.foot_mass, leg.foot_length, (along, 0.0, -leg.ankle_height / 2))
+    sagittal, transverse, longitudinal = np.diag(foot.inertia)  # the foot's long axis lies forward
+    foot = foot._replace(inertia=np.diag([longitudinal, transverse, sagittal]))
+    down = {name: -table[name].centre * getattr(leg, name) for name in ("thigh", "shank")}
+    return {
+        "thigh": [_segment("thigh", body.sex, leg.thigh_mass, leg.thigh, (0.0, 0.0, down["thigh"]))],
+        "shank": [_segment("shank", body.sex, leg.shank_mass, leg.shank, (0.0, 0.0, down["shank"]))],
+        "sole_plate": [foot],
+    }
+
+
+def _upper_body(body: Body) -> list[Part]:
+    """Head, trunk and hanging arms above the hips, scaled to the mass that the legs leave."""
+    if not body.wearer:
+        return []
+    table = tables.DE_LEVA[body.sex]
+    size = {name: fraction * body.stature for name, fraction in tables.DESIGN_LENGTHS.items()}
+    top = size["trunk"]  # shoulder line above the mid-hip
+    head = top + (1 - table["head"].centre) * size["head"]
+    heights = {"trunk": top * (1 - table["trunk"].centre), "head": head}
+    places = [("trunk", 0.0, heights["trunk"]), ("head", 0.0, heights["head"])]
+    for s in (1.0, -1.0):
+        z = top
+        for name in ("upper_arm", "forearm", "hand"):
+            places.append((name, s * size["shoulder"], z - table[name].centre * size[name]))
+            z -= size[name]
+    scale = body.upper_mass / sum(table[name].mass for name, _, _ in places)
+    return [_segment(n, body.sex, scale * table[n].mass, size[n], (0.0, y, z)) for n, y, z in places]
+
+
+def _waist(body: Body) -> Part:
+    """Waist ring and bracket as a box behind and around the body."""
+    return _box(body.pelvis_hardware, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
+
+
+def _segment(
+    name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]
+) -> Part:
+    """A segment of de Leva's table: principal inertias mass * (radius of gyration * length)^2."""
+    radii = np.array(tables.DE_LEVA[sex][name].gyration) * length
+    return Part(mass, np.array(centre), np.diag(mass * radii**2))
+
+
+def _box(mass: float, centre: tuple[float, float, float], size: tuple[float, float, float]) -> Part:
+    """A solid box: I_xx = m (y^2 + z^2) / 12 and so on."""
+    squares = np.array(size) ** 2
+    return Part(mass, np.array(centre), np.diag(mass / 12 * (squares.sum() - squares)))

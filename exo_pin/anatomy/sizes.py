@@ -1,0 +1,96 @@
+"""What each size and mass of a body measures, its unit and its plausible range."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, joint
+from exo_pin.anatomy.tables import LIMITS_DEG
+from exo_pin.errors import DescriptionError, UnknownNameError
+
+
+class Size(NamedTuple):
+    """A number that describes a body: plausible range, unit and meaning."""
+
+    low: float
+    high: float
+    unit: str
+    what: str
+
+
+LEG_SIZES = {
+    "thigh": Size(0.05, 1.0, "m", "hip centre to knee"),
+    "shank": Size(0.05, 1.0, "m", "knee to ankle"),
+    "ankle_height": Size(0.01, 0.4, "m", "ankle above the sole"),
+    "foot_length": Size(0.05, 0.6, "m", "heel to toe tip"),
+    "foot_width": Size(0.02, 0.3, "m", "width of the sole"),
+    "heel": Size(0.005, 0.3, "m", "heel behind the ankle"),
+    "ball": Size(0.02, 0.4, "m", "ball of the foot ahead of the ankle"),
+    "thigh_mass": Size(0.01, 80.0, "kg", "the wearer's thigh"),
+    "shank_mass": Size(0.01, 40.0, "kg", "the wearer's shank"),
+    "foot_mass": Size(0.01, 15.0, "kg", "the wearer's foot"),
+}
+"""Sizes of one leg; a `Body` has each of them twice, as `left_...` and `right_...`."""
+
+SIZES = {
+    "stature": Size(0.5, 2.6, "m", "height of the person"),
+    "mass": Size(2.0, 400.0, "kg", "mass of the person"),
+    "hip_width": Size(0.03, 0.6, "m", "distance between the hip joint centres"),
+    "waist_width": Size(0.1, 1.0, "m", "inner width of the waist ring"),
+    **{f"{side}_{name}": size for side in SIDES for name, size in LEG_SIZES.items()},
+    "pelvis_hardware": Size(0.01, 100.0, "kg", "waist ring, bracket and electronics"),
+    "hip_hardware": Size(0.01, 30.0, "kg", "each of the two links between pelvis and thigh, a side"),
+    "thigh_hardware": Size(0.01, 30.0, "kg", "thigh bar, knee motor and cuffs, a side"),
+    "shank_hardware": Size(0.01, 30.0, "kg", "shank bar, ankle motor and cuffs, a side"),
+    "ankle_hardware": Size(0.01, 30.0, "kg", "link between the two ankle axes, a side"),
+    "foot_hardware": Size(0.01, 30.0, "kg", "foot plate, a side"),
+}
+"""Every number of a `Body`."""
+
+DEFAULT_LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        joint(side, movement): (math.radians(LIMITS_DEG[movement][0]), math.radians(LIMITS_DEG[movement][1]))
+        for side in SIDES
+        for movement in MOVEMENTS
+    }
+)
+"""Default joint limits [rad] by joint name."""
+
+
+def checked(name: str, value: object) -> float:
+    """The value as a float within its plausible range.
+
+    Raises:
+        DescriptionError: It is no finite number, or implausible.
+    """
+    size = SIZES[name]
+    accepted = f"{size.low:g} .. {size.high:g} {size.unit} is accepted"
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise DescriptionError(f"{name} is {value!r}; a number of {accepted}")
+    if not size.low <= value <= size.high:
+        raise DescriptionError(f"{name} = {value:g} {size.unit} is not plausible; {accepted}")
+    return float(value)
+
+
+def checked_limits(limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """All 12 joint limits [rad] in the order of `JOINTS`; those not given are the defaults.
+
+    Raises:
+        UnknownNameError: A joint is unknown.
+        DescriptionError: A pair is not lower < upper within one turn.
+    """
+    complete = dict(DEFAULT_LIMITS)
+    for name, pair in limits.items():
+        if name not in complete:
+            raise UnknownNameError("joint", name, JOINTS)
+        lower, upper = (float(x) for x in pair)
+        if not -math.pi <= lower < upper <= math.pi:
+            raise DescriptionError(
+                f"limits of {name}: {math.degrees(lower):g} .. {math.degrees(upper):g} deg; "
+                "lower < upper within -180 .. 180 deg is accepted"
+            )
+        complete[name] = (lower, upper)
+    return complete

@@ -1,0 +1,162 @@
+"""Description: from a `Body` to the URDF text of the exoskeleton, through the xacro sources in urdf/."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import io
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from exo_pin import devices
+from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
+from exo_pin.anatomy.inertia import Part, link_inertias
+from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
+from exo_pin.devices import Device
+from exo_pin.errors import DescriptionError, UnknownNameError
+
+_MAIN = "exo12.urdf.xacro"
+_SIZES = [
+    "hip_width",
+    "waist_width",
+    *(f"{side}_{name}" for side in SIDES for name, size in LEG_SIZES.items() if size.unit == "m"),
+]
+"""The sizes of a `Body` that xacro places."""
+
+
+def sources() -> Path:
+    """The folder of the xacro sources: inside the installed package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parent
+    for folder in (package / "urdf", package.parent / "urdf"):
+        if (folder / _MAIN).is_file():
+            return folder
+    raise DescriptionError(f"the xacro sources ({_MAIN}) are missing beside {package}; reinstall exo_pin")
+
+
+def arguments(
+    body: Body, *, device: str = "exo12", hip_order: str = "clinical", **overrides: str
+) -> dict[str, str]:
+    """Every xacro argument as text, in the order of urdf/arguments.xacro.
+
+    Args:
+        body: Sizes, masses and joint ranges.
+        device: Name of the device.
+        hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        **overrides: Single arguments, e.g. `left_thigh_link_mass="12.5"`.
+
+    Raises:
+        UnknownNameError: Device, hip order or an override is unknown.
+        DescriptionError: An override is no plausible number, or an inertia is not physical.
+    """
+    if hip_order not in HIP_ORDERS:
+        raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
+    found = devices.find(device)
+    values = {"hip_order": hip_order} | {name: _text(getattr(body, name)) for name in _SIZES}
+    for link, part in link_inertias(body).items():
+        values |= _inertial(link, part)
+    for joint in JOINTS:
+        values |= _limits(body, found, joint)
+    for name, value in overrides.items():
+        if name not in values:
+            raise UnknownNameError("argument", name, values)
+        values[name] = _plausible(name, value, like=values[name])
+    _check_inertias(values)
+    return values
+
+
+def urdf(body: Body, *, device: str = "exo12", hip_order: str = "clinical", **overrides: str) -> str:
+    """The URDF text of the exoskeleton for this body: the same bytes for the same arguments everywhere.
+
+    Arguments and errors are those of `arguments`.
+    """
+    return expand(arguments(body, device=device, hip_order=hip_order, **overrides))
+
+
+def expand(values: Mapping[str, str]) -> str:
+    """Run xacro on the sources with these arguments.
+
+    Raises:
+        DescriptionError: xacro refuses the sources.
+    """
+    return _expand(tuple(values.items()))
+
+
+@functools.lru_cache(maxsize=16)  # xacro takes about 0.2 s, and a session asks for the same body again and again
+def _expand(values: tuple[tuple[str, str], ...]) -> str:
+    import xacro  # 30 ms that only a description needs
+
+    noise = io.StringIO()  # xacro reports its errors on stderr before it raises
+    try:
+        with contextlib.redirect_stderr(noise):
+            document = xacro.process_file(str(sources() / _MAIN), mappings=dict(values))
+    except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
+        raise DescriptionError(f"xacro cannot expand {_MAIN}: {error}") from error
+    text: str = document.documentElement.toprettyxml(indent="  ")  # the element: the banner holds a local path
+    lines = (line for line in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).splitlines() if line.strip())
+    return '<?xml version="1.0"?>\n' + "\n".join(lines) + "\n"
+
+
+def _inertial(link: str, part: Part) -> dict[str, str]:
+    upper = part.inertia[np.triu_indices(3)]  # ixx ixy ixz iyy iyz izz
+    return {
+        f"{link}_link_mass": _rounded(part.mass),
+        f"{link}_com": " ".join(map(_rounded, part.centre)),
+        f"{link}_inertia": " ".join(map(_rounded, upper)),
+    }
+
+
+def _limits(body: Body, device: Device, joint: str) -> dict[str, str]:
+    lower, upper = body.limits[joint]
+    actuator = device.actuators[joint.split("_", 1)[1]]
+    numbers = {"lower": lower, "upper": upper, "effort": actuator.effort, "velocity": actuator.velocity}
+    return {f"{joint}_{name}": _text(value) for name, value in numbers.items()}
+
+
+def _text(value: float) -> str:
+    """The shortest text that reads back as the same number."""
+    return repr(float(value))
+
+
+def _rounded(value: float) -> str:
+    """Inertial numbers to 1e-9, so that the last bit of a sum does not change the text."""
+    return repr(round(float(value), 9) + 0.0)
+
+
+def _plausible(name: str, text: str, *, like: str) -> str:
+    """An override as text, checked: sizes by their range, other numbers by being finite."""
+    if name == "hip_order":
+        raise DescriptionError("hip_order is given by name: clinical or yaw_roll_pitch")
+    try:
+        numbers = [float(part) for part in str(text).split()]
+    except ValueError:
+        raise DescriptionError(f"{name}:={text} is no number") from None
+    if len(numbers) != len(like.split()) or not all(map(math.isfinite, numbers)):
+        raise DescriptionError(f"{name}:={text} must be {len(like.split())} finite number(s)")
+    if name in SIZES:
+        checked(name, numbers[0])
+    if name.endswith(("_effort", "_velocity")) and numbers[0] <= 0:
+        raise DescriptionError(f"{name}:={text} must be positive")
+    if name.endswith(("_lower", "_upper")) and abs(numbers[0]) > math.pi:
+        raise DescriptionError(f"{name}:={text} is more than half a turn; radians are expected")
+    return " ".join(map(_text, numbers))
+
+
+def _check_inertias(values: Mapping[str, str]) -> None:
+    """Positive masses, and principal inertias that a real body can have (triangle inequality)."""
+    for name in values:
+        if not name.endswith("_link_mass"):
+            continue
+        link = name.removesuffix("_link_mass")
+        if float(values[name]) <= 0:
+            raise DescriptionError(f"{name}:={values[name]} must be positive")
+        matrix = np.zeros((3, 3))
+        matrix[np.triu_indices(3)] = [float(x) for x in values[f"{link}_inertia"].split()]
+        principal = np.linalg.eigvalsh(matrix, UPLO="U")
+        if principal[0] <= 0 or principal[2] > (principal[0] + principal[1]) * (1 + 1e-9):
+            raise DescriptionError(
+                f"{link}_inertia:={values[f'{link}_inertia']} is not the inertia of a real body"
+            )
