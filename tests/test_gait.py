@@ -116,7 +116,7 @@ def test_a_periodic_gait_starts_at_zero_and_is_even():
 
 def test_events_outside_the_walk_or_of_unknown_kind_are_refused():
     refused("outside the walk", events=[Event(0.21, "toe_off", "left")])
-    refused("outside the walk", events=[Event(0.3, "toe_off", "left")], periodic=True)
+    refused("outside the walk", events=[Event(0.31, "toe_off", "left")], periodic=True)
     assert Gait(
         [0, 0.1, 0.2], np.zeros((3, 12)), events=[Event(0.29, "toe_off", "left")], periodic=True
     ).events
@@ -200,9 +200,8 @@ def test_a_resampled_recording_keeps_its_samples_and_is_smooth(recording):
     assert even.time[0] == recording.time[0]
     assert even.time[-1] == recording.time[-1]
     truth = 0.3 * np.sin(np.multiply.outer(even.time, np.linspace(1, 6, 12)))
-    np.testing.assert_allclose(
-        even.q, truth, atol=2e-6
-    )  # [rad] Hermite error h^3 f'''/ 20 at 12 ms steps, 6 rad/s
+    # one-sided slopes at the ends: h^3 f''' / 10 at 12 ms steps and 6 rad/s
+    np.testing.assert_allclose(even.q, truth, atol=1e-5)
 
 
 def test_a_resampled_base_follows_the_turning_pelvis(recording, cycle):

@@ -1,0 +1,115 @@
+"""The normative walk at five speeds: smooth, periodic, and with the pelvis's own turning."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import MOVEMENTS, Body
+from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.gait.event import Event
+from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
+from exo_pin.gait.walk import Gait
+
+Array = NDArray[np.float64]
+
+SPEEDS = tuple(ANGLES)
+"""`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
+
+SOURCE = "Schwartz 2008"
+GRAVITY = 9.81
+LEG_LENGTHS = (0.1, 2.5)
+"""Shortest and longest leg [m] that a stride time is given for: what a `Body` can be."""
+
+
+def normative_gait(speed: str = "free", *, leg_length: float | None = None, samples: int = 100) -> Gait:
+    """The mean walk of typically developing children, with the left heel strike at time 0.
+
+    Angles, contact events and cadence are those of Schwartz, Rozumalski and Trost, J Biomech 41 (2008)
+    1639-1650; the right leg walks half a cycle after the left. The pelvis's tilt, obliquity and rotation are
+    the orientation of `base`, because the hip angles were measured against that tilted pelvis: on an upright
+    pelvis the feet would not meet the ground. In a walk whose halves mirror each other the tilt has only even
+    harmonics, obliquity and rotation only odd ones and no mean; they were fitted so. The pelvis's centre
+    stays at (0, 0, leg_length): its path is not in the source. Events are the source's own: the right foot's
+    are those of the opposite foot, rounded to a percent of the cycle and not exactly half a cycle late.
+
+    Weak channels: ankle inversion (Oxford foot model, one curve for all speeds, subjects not documented),
+    hip rotation and the level of the pelvis's tilt, on which sources disagree.
+
+    Args:
+        speed: One of `SPEEDS`.
+        leg_length: Hip centre to sole [m], sets stride time and pelvis height; default: the default body's.
+        samples: Number of samples in the cycle, at least 17, so that all eight harmonics are kept.
+
+    Returns:
+        A periodic gait with base and events. The stride time is 2 / (c sqrt(g / leg_length)), with c the
+        dimensionless cadence (steps per time) of the source.
+
+    Raises:
+        UnknownNameError: If there is no such speed.
+        GaitError: If the leg length is implausible or there are too few samples.
+    """
+    if speed not in ANGLES:
+        raise UnknownNameError("speed", speed, SPEEDS)
+    length = Body.from_stature().leg_length if leg_length is None else leg_length
+    if not LEG_LENGTHS[0] <= length <= LEG_LENGTHS[1]:
+        raise GaitError(f"leg_length = {length} m: expected {LEG_LENGTHS[0]} to {LEG_LENGTHS[1]} m")
+    if samples <= 2 * HARMONICS:
+        raise GaitError(f"samples = {samples}: {HARMONICS} harmonics need at least {2 * HARMONICS + 1}")
+    stride = 2 / (TIMING[speed]["cadence"] * math.sqrt(GRAVITY / length))
+    phase = np.arange(samples) / samples
+    return Gait(
+        stride * phase,
+        np.hstack([_leg(speed, phase), _leg(speed, phase - 0.5)]),
+        base=_pelvis(speed, phase, length),
+        events=_events(speed, stride),
+        periodic=True,
+        source=f"{SOURCE}, {speed}; ankle inversion: Oxford foot model",
+    )
+
+
+def _series(coefficients: tuple[float, ...], phase: Array) -> Array:
+    """`(n,)` angle [rad] from mean, cosines and sines [deg] at phases of the cycle (1 is a full cycle)."""
+    mean, cosines, sines = np.split(np.radians(coefficients), [1, 1 + HARMONICS])
+    angle = 2 * np.pi * np.outer(phase, np.arange(1, HARMONICS + 1))
+    return np.asarray(mean + np.cos(angle) @ cosines + np.sin(angle) @ sines)
+
+
+def _leg(speed: str, phase: Array) -> Array:
+    """`(n, 6)` joint angles of a leg that strikes the ground at phase 0."""
+    curves = {**ANGLES[speed], "ankle_inversion": ANKLE_INVERSION}
+    return np.stack([_series(curves[movement], phase) for movement in MOVEMENTS], axis=1)
+
+
+def _pelvis(speed: str, phase: Array, height: float) -> Array:
+    """`(n, 4, 4)` poses: tilt forward about y, then left side up about x, then left side forward about -z."""
+    tilt, obliquity, rotation = (
+        _series(ANGLES[speed][f"pelvis_{name}"], phase) for name in ("tilt", "obliquity", "rotation")
+    )
+    base = np.tile(np.eye(4), (len(phase), 1, 1))
+    base[:, :3, :3] = _turns(1, tilt) @ _turns(0, obliquity) @ _turns(2, -rotation)
+    base[:, 2, 3] = height
+    return base
+
+
+def _turns(axis: int, angle: Array) -> Array:
+    """`(n, 3, 3)` rotations about a coordinate axis."""
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    R = np.tile(np.eye(3), (len(angle), 1, 1))
+    R[:, i, i] = R[:, j, j] = np.cos(angle)
+    R[:, j, i] = np.sin(angle)
+    R[:, i, j] = -R[:, j, i]
+    return R
+
+
+def _events(speed: str, stride: float) -> list[Event]:
+    at = TIMING[speed]
+    moments = (
+        (0.0, "heel_strike", "left"),
+        (at["opposite_off"], "toe_off", "right"),
+        (at["opposite_contact"], "heel_strike", "right"),
+        (at["foot_off"], "toe_off", "left"),
+    )
+    return [Event(stride * percent / 100, kind, side, SOURCE) for percent, kind, side in moments]
