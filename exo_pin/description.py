@@ -85,7 +85,9 @@ def expand(values: Mapping[str, str]) -> str:
     return _expand(tuple(values.items()))
 
 
-@functools.lru_cache(maxsize=16)  # xacro takes about 0.2 s, and a session asks for the same body again and again
+@functools.lru_cache(
+    maxsize=16
+)  # xacro takes about 0.2 s, and a session asks for the same body again and again
 def _expand(values: tuple[tuple[str, str], ...]) -> str:
     import xacro  # 30 ms that only a description needs
 
@@ -95,7 +97,9 @@ def _expand(values: tuple[tuple[str, str], ...]) -> str:
             document = xacro.process_file(str(sources() / _MAIN), mappings=dict(values))
     except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
         raise DescriptionError(f"xacro cannot expand {_MAIN}: {error}") from error
-    text: str = document.documentElement.toprettyxml(indent="  ")  # the element: the banner holds a local path
+    text: str = document.documentElement.toprettyxml(
+        indent="  "
+    )  # the element: the banner holds a local path
     lines = (line for line in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).splitlines() if line.strip())
     return '<?xml version="1.0"?>\n' + "\n".join(lines) + "\n"
 

@@ -112,9 +112,7 @@ def _waist(body: Body) -> Part:
     return _box(body.pelvis_hardware, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
 
 
-def _segment(
-    name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]
-) -> Part:
+def _segment(name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]) -> Part:
     """A segment of de Leva's table: principal inertias mass * (radius of gyration * length)^2."""
     radii = np.array(tables.DE_LEVA[sex][name].gyration) * length
     return Part(mass, np.array(centre), np.diag(mass * radii**2))

@@ -1,0 +1,18 @@
+"""Forward kinematics: where the links are, how fast they move, the centre of mass, contact with the ground."""
+
+from exo_pin.kinematics.contact import Contacts, contacts, events
+from exo_pin.kinematics.mass import CenterOfMass, center_of_mass
+from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
+
+__all__ = [
+    "CenterOfMass",
+    "Contacts",
+    "accelerations",
+    "attitude",
+    "center_of_mass",
+    "contacts",
+    "events",
+    "jacobian",
+    "poses",
+    "velocities",
+]

@@ -1,0 +1,70 @@
+"""The centre of mass of wearer and device, with its velocity and acceleration."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin.kinematics.motion import moved, rates, samples
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+
+class CenterOfMass(NamedTuple):
+    """Centre of mass in world axes.
+
+    Attributes:
+        position: (..., 3) [m].
+        velocity: (..., 3) [m/s]; zero where no dq was given.
+        acceleration: (..., 3) [m/s^2]; zero where neither dq nor ddq was given.
+    """
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+
+def center_of_mass(
+    robot: Robot,
+    q: npt.ArrayLike,
+    dq: npt.ArrayLike | None = None,
+    ddq: npt.ArrayLike | None = None,
+    *,
+    base: npt.ArrayLike | None = None,
+) -> CenterOfMass:
+    """The centre of mass, everything that the model weighs; arguments as in `exo_pin.kinematics.poses`.
+
+    Raises:
+        DescriptionError: A shape does not fit.
+    """
+    rows, shape = samples(robot, q)
+    still = np.zeros((*shape, robot.model.nv))
+    speeds = rates(robot, still if dq is None else dq, shape, "dq")
+    changes = rates(robot, still if ddq is None else ddq, shape, "ddq")
+    data = robot.model.createData()
+    out = np.empty((3, len(rows), 3))
+    for k in range(len(rows)):
+        pin.centerOfMass(robot.model, data, rows[k], speeds[k], changes[k])
+        out[:, k] = data.com[0], data.vcom[0], data.acom[0]
+    out = _with_root(robot, out).reshape(3, *shape, 3)
+    if base is None:
+        return CenterOfMass(*out)
+    T = moved(robot, base, shape)
+    turned = (T[..., :3, :3] @ out[..., None])[..., 0]
+    turned[0] += T[..., :3, 3]
+    return CenterOfMass(*turned)
+
+
+def _with_root(robot: Robot, com: Array) -> Array:
+    """Add the pelvis of a fixed robot, which Pinocchio leaves out because it never moves."""
+    root = robot.model.inertias[0]
+    if root.mass == 0.0:
+        return com
+    moving = sum(inertia.mass for inertia in robot.model.inertias[1:])
+    com = com * moving / (moving + root.mass)
+    com[0] += root.lever * root.mass / (moving + root.mass)
+    return com

@@ -1,0 +1,176 @@
+"""Poses, velocities, accelerations and Jacobians of frames, one sample or many, by Pinocchio.
+
+Spatial vectors are linear first, then angular, both in world axes; the linear part is that of the frame's
+origin. `base` moves the whole robot: it is T_world_pelvis, one (4, 4) or one per sample (..., 4, 4), taken as
+held still; for the velocity of a moving pelvis load the robot with `base="floating"`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin.anatomy import FEET
+from exo_pin.errors import DescriptionError
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+
+
+def poses(
+    robot: Robot, q: npt.ArrayLike, frames: Sequence[str] = FEET, *, base: npt.ArrayLike | None = None
+) -> Array:
+    """Poses T_world_frame (..., F, 4, 4) of the named frames.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        frames: Names of links, point frames or joints.
+        base: T_world_pelvis (4, 4) or (..., 4, 4); the robot's own placement if left out.
+
+    Raises:
+        UnknownNameError: A frame is unknown.
+        DescriptionError: The shape of q or base does not fit.
+    """
+    ids = [robot.frame(name) for name in frames]
+    model, data = robot.model, robot.model.createData()
+    rows, shape = samples(robot, q)
+    out = np.empty((len(rows), len(ids), 4, 4))
+    for k, row in enumerate(rows):
+        pin.framesForwardKinematics(model, data, row)
+        for f, index in enumerate(ids):
+            out[k, f] = data.oMf[index].homogeneous
+    out = out.reshape(*shape, len(ids), 4, 4)
+    return out if base is None else moved(robot, base, shape)[..., None, :, :] @ out
+
+
+def velocities(
+    robot: Robot,
+    q: npt.ArrayLike,
+    dq: npt.ArrayLike,
+    frames: Sequence[str] = FEET,
+    *,
+    base: npt.ArrayLike | None = None,
+) -> Array:
+    """Velocities (..., F, 6) [m/s, rad/s] of the named frames: linear, then angular, in world axes.
+
+    Arguments and errors as in `poses`; dq (..., nv) are joint velocities [rad/s].
+    """
+    rows, shape = samples(robot, q)
+    speeds = rates(robot, dq, shape, "dq")
+
+    def row(data: Any, k: int, ids: list[int]) -> list[Array]:
+        pin.forwardKinematics(robot.model, data, rows[k], speeds[k])
+        return [pin.getFrameVelocity(robot.model, data, i, _AXES).vector for i in ids]
+
+    return _spatial(robot, len(rows), shape, frames, base, row)
+
+
+def accelerations(
+    robot: Robot,
+    q: npt.ArrayLike,
+    dq: npt.ArrayLike,
+    ddq: npt.ArrayLike,
+    frames: Sequence[str] = FEET,
+    *,
+    base: npt.ArrayLike | None = None,
+) -> Array:
+    """Accelerations (..., F, 6) [m/s^2, rad/s^2]: of the frame's origin and angular, in world axes.
+
+    The linear part is the classical (material) one, the derivative of the origin's velocity; gravity is not in
+    it. Arguments and errors as in `poses`; dq, ddq (..., nv).
+    """
+    rows, shape = samples(robot, q)
+    speeds, changes = rates(robot, dq, shape, "dq"), rates(robot, ddq, shape, "ddq")
+
+    def row(data: Any, k: int, ids: list[int]) -> list[Array]:
+        pin.forwardKinematics(robot.model, data, rows[k], speeds[k], changes[k])
+        return [pin.getFrameClassicalAcceleration(robot.model, data, i, _AXES).vector for i in ids]
+
+    return _spatial(robot, len(rows), shape, frames, base, row)
+
+
+def jacobian(robot: Robot, q: npt.ArrayLike, frame: str, *, base: npt.ArrayLike | None = None) -> Array:
+    """Jacobian (..., 6, nv) of a frame: `jacobian @ dq` is its velocity as `velocities` gives it."""
+    index = robot.frame(frame)
+    data = robot.model.createData()
+    rows, shape = samples(robot, q)
+    out = np.empty((len(rows), 6, robot.model.nv))
+    for k, row in enumerate(rows):
+        out[k] = pin.computeFrameJacobian(robot.model, data, row, index, _AXES)
+    out = out.reshape(*shape, 6, robot.model.nv)
+    if base is None:
+        return out
+    R = moved(robot, base, shape)[..., :3, :3]
+    return np.concatenate([R @ out[..., :3, :], R @ out[..., 3:, :]], axis=-2)
+
+
+def attitude(robot: Robot, q: npt.ArrayLike, frame: str, *, relative_to: str) -> Array:
+    """Rotation (..., 3, 3) of one link, joint or frame seen from another: R_relative_frame.
+
+    Raises:
+        UnknownNameError: A frame is unknown.
+    """
+    R = poses(robot, q, (relative_to, frame))[..., :3, :3]
+    return np.asarray(np.swapaxes(R[..., 0, :, :], -1, -2) @ R[..., 1, :, :])
+
+
+def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
+    """Configurations as rows (n, nq) and the shape in front, checked.
+
+    Raises:
+        DescriptionError: The last axis is not nq.
+    """
+    q = np.asarray(q, dtype=float)
+    shape = robot.angles(q).shape[:-1]
+    return q.reshape(-1, robot.nq), shape
+
+
+def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:
+    """Joint velocities or accelerations as rows (n, nv), checked against the samples.
+
+    Raises:
+        DescriptionError: The shape does not fit.
+    """
+    values = np.asarray(values, dtype=float)
+    if values.shape != (*shape, robot.model.nv):
+        raise DescriptionError(f"{name} has shape {values.shape}; {(*shape, robot.model.nv)} fits q")
+    return values.reshape(-1, robot.model.nv)
+
+
+def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
+    """What carries the robot from its own placement to `base`: (..., 4, 4).
+
+    Raises:
+        DescriptionError: The shape does not fit, or the robot's base floats and stands in q already.
+    """
+    if robot.base == "floating":
+        raise DescriptionError("the base of a floating robot stands in q; base= is for base='fixed'")
+    base = np.asarray(base, dtype=float)
+    if base.shape not in ((4, 4), (*shape, 4, 4)):
+        raise DescriptionError(f"base has shape {base.shape}; (4, 4) or {(*shape, 4, 4)} is accepted")
+    return base @ np.linalg.inv(robot.placement)
+
+
+def _spatial(
+    robot: Robot,
+    n: int,
+    shape: tuple[int, ...],
+    frames: Sequence[str],
+    base: npt.ArrayLike | None,
+    row: Callable[[Any, int, list[int]], list[Array]],
+) -> Array:
+    """Spatial vectors (..., F, 6) sample by sample, turned with the base."""
+    ids = [robot.frame(name) for name in frames]
+    data = robot.model.createData()
+    out = np.array([row(data, k, ids) for k in range(n)]).reshape(*shape, len(ids), 6)
+    if base is None:
+        return out
+    R = moved(robot, base, shape)[..., None, :3, :3]
+    turned = R @ out.reshape(*shape, len(ids), 2, 3).swapaxes(-1, -2)
+    return np.asarray(turned.swapaxes(-1, -2).reshape(out.shape))

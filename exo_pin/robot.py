@@ -1,0 +1,276 @@
+"""The robot: Pinocchio's model of an exoskeleton, addressed by name."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin import description
+from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
+from exo_pin.anatomy.hip import reorder
+from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
+from exo_pin.gait import Gait
+
+Array = npt.NDArray[np.float64]
+_FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
+_HIPS = HIP_ORDERS["clinical"]
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A robot with two legs (or any URDF), every joint and frame addressed by its name.
+
+    Attributes:
+        model: Pinocchio's model. Its world is W; a fixed pelvis stands at `placement`.
+        urdf: The text it was built from.
+        joints: Names of the driven joints in the order of q (behind the floating base's 7 numbers, if any).
+        lower: Lower joint limits (J,) [rad].
+        upper: Upper joint limits (J,) [rad].
+        velocity: Largest joint speeds (J,) [rad/s].
+        effort: Largest joint torques (J,) [N m].
+        placement: T_world_pelvis (4, 4) at rest: the longer leg's sole is on the ground at q = 0.
+        base: `"fixed"` or `"floating"`.
+        body: The body it was made for; None for a URDF from elsewhere.
+        hip_order: Order of the hip joints from the pelvis outwards.
+    """
+
+    model: Any
+    urdf: str
+    joints: tuple[str, ...]
+    lower: Array
+    upper: Array
+    velocity: Array
+    effort: Array
+    placement: Array
+    base: str = "fixed"
+    body: Body | None = None
+    hip_order: str = "clinical"
+
+    @property
+    def name(self) -> str:
+        """Name of the robot in its URDF."""
+        return str(self.model.name)
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """Names of links and point frames, those of the feet and sole corners among them."""
+        return tuple(f.name for f in self.model.frames if f.type == pin.FrameType.BODY)
+
+    @property
+    def nq(self) -> int:
+        """Length of a configuration q."""
+        return int(self.model.nq)
+
+    @property
+    def neutral(self) -> Array:
+        """The configuration (nq,) with all joints at zero; a floating base stands at `placement`."""
+        q = np.zeros(self.nq)
+        if self.base == "floating":
+            q[:_FREE] = pin.SE3ToXYZQUAT(pin.SE3(self.placement))
+        return q
+
+    def frame(self, name: str) -> int:
+        """Pinocchio's index of a link, point frame or joint.
+
+        Raises:
+            UnknownNameError: Nothing has that name.
+        """
+        for kind in (pin.FrameType.BODY, pin.FrameType.JOINT):
+            index = self.model.getFrameId(name, kind)
+            if index < self.model.nframes:
+                return int(index)
+        raise UnknownNameError("frame", name, (*self.frames, *self.joints))
+
+    def q(self, angles: Mapping[str, float] = {}) -> Array:  # noqa: B006  # only read
+        """A configuration (nq,) from joint angles [rad] by name; the others are zero.
+
+        Raises:
+            UnknownNameError: A joint is unknown.
+        """
+        q = self.neutral
+        for name, angle in angles.items():
+            q[self.column(name)] = angle
+        return q
+
+    def column(self, joint: str) -> int:
+        """Where a joint's angle stands in q.
+
+        Raises:
+            UnknownNameError: The joint is unknown.
+        """
+        if joint not in self.joints:
+            raise UnknownNameError("joint", joint, self.joints)
+        return self.nq - len(self.joints) + self.joints.index(joint)
+
+    def angles(self, q: npt.ArrayLike) -> Array:
+        """The joint angles (..., J) of configurations (..., nq), in the order of `joints`.
+
+        Raises:
+            DescriptionError: The last axis does not fit.
+        """
+        q = np.asarray(q, dtype=float)
+        if q.ndim == 0 or q.shape[-1] != self.nq:
+            raise DescriptionError(
+                f"q has shape {q.shape}; (..., {self.nq}) is accepted, in the order of Robot.joints"
+            )
+        return q[..., self.nq - len(self.joints) :]
+
+    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = 1e-9) -> None:
+        """Refuse configurations (..., nq) outside the joint limits.
+
+        Args:
+            q: One configuration or many.
+            tolerance: Allowed excess [rad]; the default forgives rounding only.
+
+        Raises:
+            LimitError: Names the joint that is furthest outside.
+        """
+        angles = self.angles(q).reshape(-1, len(self.joints))
+        excess = np.maximum(angles - self.upper, self.lower - angles)
+        if not len(excess) or np.nanmax(excess) <= tolerance:
+            return
+        frame, j = np.unravel_index(np.nanargmax(excess), excess.shape)
+        where = f" in frame {frame}" if len(angles) > 1 else ""
+        raise LimitError(
+            self.joints[j], float(angles[frame, j]), float(self.lower[j]), float(self.upper[j]), where=where
+        )
+
+    def from_gait(self, gait: Gait) -> Array:
+        """The gait in this robot's own coordinates (n, nq): its joints, its hip order, its base.
+
+        Raises:
+            UnknownNameError: The robot lacks one of the gait's joints.
+        """
+        q = np.tile(self.neutral, (len(gait.q), 1))
+        if self.base == "floating" and gait.base is not None:
+            q[:, :_FREE] = [pin.SE3ToXYZQUAT(pin.SE3(T)) for T in gait.base]
+        q[:, [self.column(name) for name in JOINTS]] = _in_order(
+            gait.q, source="clinical", target=self.hip_order
+        )
+        return q
+
+    def to_gait(self, q: npt.ArrayLike, like: Gait) -> Gait:
+        """The way back: configurations (n, nq) as a gait with the time, events and (if fixed) base of `like`."""
+        columns = [self.column(name) for name in JOINTS]
+        q = np.asarray(q, dtype=float)
+        base = like.base
+        if self.base == "floating":
+            base = np.array([pin.XYZQUATToSE3(x).homogeneous for x in q[:, :_FREE]])
+        clinical = _in_order(q[:, columns], source=self.hip_order, target="clinical")
+        return dataclasses.replace(like, q=clinical, base=base)
+
+
+def load_robot(
+    body: Body | None = None,
+    *,
+    device: str = "exo12",
+    hip_order: str = "clinical",
+    base: str = "fixed",
+) -> Robot:
+    """The exoskeleton for a body.
+
+    Args:
+        body: Sizes and masses; `Body.from_stature()` if left out.
+        device: Name of the device, one of `exo_pin.devices.DEVICES`.
+        hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        base: `"fixed"`: the pelvis is held as in the paper; `"floating"`: it has six degrees of freedom.
+
+    Raises:
+        UnknownNameError: Device, hip order or base is unknown.
+    """
+    body = Body.from_stature() if body is None else body
+    text = description.urdf(body, device=device, hip_order=hip_order)
+    placement = np.eye(4)
+    placement[2, 3] = body.leg_length
+    robot = load_urdf(text, base=base, placement=placement)
+    return dataclasses.replace(robot, body=body, hip_order=hip_order)
+
+
+def load_urdf(
+    source: str | Path,
+    *,
+    base: str = "fixed",
+    placement: npt.ArrayLike | None = None,
+    hip_order: str = "clinical",
+) -> Robot:
+    """A robot from any URDF.
+
+    Args:
+        source: Path of a URDF file, or its text.
+        base: `"fixed"` or `"floating"`.
+        placement: Pose of the root link in the world (4, 4); the identity if left out.
+        hip_order: Order of its hip joints, should it have the joints of `JOINTS`.
+
+    Raises:
+        DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts.
+    """
+    if base not in ("fixed", "floating"):
+        raise UnknownNameError("base", base, ("fixed", "floating"))
+    text = _text(source)
+    try:
+        root = (pin.JointModelFreeFlyer(),) if base == "floating" else ()
+        model = pin.buildModelFromXML(text, *root)
+    except (ValueError, RuntimeError) as error:
+        raise DescriptionError(f"Pinocchio does not accept this URDF: {error}") from None
+    names = tuple(model.names)[2 if base == "floating" else 1 :]
+    for name in names:
+        if model.joints[model.getJointId(name)].nq != 1:
+            raise DescriptionError(f"joint {name!r} is not revolute or prismatic with limits")
+    stand = np.eye(4) if placement is None else np.array(placement, dtype=float)
+    if base == "fixed":
+        _stand(model, pin.SE3(stand))
+    k = len(names)
+    return Robot(
+        model=model,
+        urdf=text,
+        joints=names,
+        lower=_frozen(model.lowerPositionLimit[-k:]),
+        upper=_frozen(model.upperPositionLimit[-k:]),
+        velocity=_frozen(model.velocityLimit[-k:]),
+        effort=_frozen(model.effortLimit[-k:]),
+        placement=_frozen(stand),
+        base=base,
+        hip_order=hip_order,
+    )
+
+
+def _text(source: str | Path) -> str:
+    if isinstance(source, str) and "<" in source:
+        return source
+    try:
+        return Path(source).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DescriptionError(f"{source}: cannot be read: {error}") from None
+
+
+def _stand(model: Any, placement: Any) -> None:
+    """Move everything that hangs on the world, so that Pinocchio's world is W."""
+    for j in range(1, model.njoints):
+        if model.parents[j] == 0:
+            model.jointPlacements[j] = placement * model.jointPlacements[j]
+    for frame in model.frames[1:]:
+        if frame.parentJoint == 0:
+            frame.placement = placement * frame.placement
+    model.inertias[0] = placement.act(model.inertias[0])
+
+
+def _in_order(q: Array, *, source: str, target: str) -> Array:
+    """Angles (n, 12) in the order of `JOINTS` with the hips converted from one order of axes to another."""
+    q = q.copy()
+    for side in SIDES:
+        hips = [JOINTS.index(f"{side}_{movement}") for movement in _HIPS]
+        q[:, hips] = reorder(q[:, hips], side, source=source, target=target)
+    return q
+
+
+def _frozen(values: npt.ArrayLike) -> Array:
+    array = np.array(values, dtype=float)
+    array.flags.writeable = False
+    return array
