@@ -45,8 +45,8 @@ EXO12 = Device(
         "ankle_dorsiflexion": Actuator(180.0, 8.0),
         "ankle_inversion": Actuator(60.0, 5.0),
     },
-    source="Degrees of freedom: Chen, Zhang and Zhu. Torques and speeds: a design choice of this package, "
-    "above what a 70 kg person's level walking at any of Schwartz's (2008) speeds needs; the paper gives none.",
+    source="Degrees of freedom: Chen, Zhang and Zhu. Torques and speeds: a design choice, above what a "
+    "70 kg person's level walking at any of Schwartz's (2008) speeds needs; the paper gives none.",
 )
 
 DEVICES: Mapping[str, Device] = {device.name: device for device in (EXO12,)}

@@ -41,8 +41,8 @@ class Body:
     """Sizes [m], masses [kg] and joint ranges [rad] of the wearer and the device.
 
     `Body.from_stature()` fills every field from anthropometric tables; any field can be overridden there or
-    with `dataclasses.replace`. `exo_pin.anatomy.sizes.SIZES` says what each number measures and which range is
-    plausible; a value outside raises `DescriptionError`.
+    with `dataclasses.replace`. `exo_pin.anatomy.sizes.SIZES` says what each number measures and which range
+    is plausible; a value outside raises `DescriptionError`.
 
     Attributes:
         sex: `"male"` or `"female"`: which of de Leva's tables gives centres of mass and radii of gyration.

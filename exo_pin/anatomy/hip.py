@@ -40,7 +40,7 @@ def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Ar
 
 
 def _signs(side: str) -> Array:
-    """Flexion turns about -y; adduction and internal rotation about +x and +z on the right, -x and -z left."""
+    """Flexion turns about -y; adduction and rotation about +x and +z on the right, -x and -z on the left."""
     if side not in SIDES:
         raise UnknownNameError("side", side, SIDES)
     s = -1.0 if side == "left" else 1.0

@@ -76,7 +76,7 @@ DE_LEVA = {
         "foot": Segment(0.0129, 0.4014, (0.299, 0.279, 0.139)),
     },
 }
-"""de Leva 1996, Table 4 and its alternative end points; the lumped upper body is head, trunk and both arms."""
+"""de Leva 1996, Table 4 and its alternative end points; head, trunk and arms make the upper body."""
 
 HARDWARE_MASSES = {
     "pelvis_hardware": 6.0,
@@ -86,8 +86,8 @@ HARDWARE_MASSES = {
     "ankle_hardware": 0.6,
     "foot_hardware": 0.9,
 }
-"""Hardware of each link [kg] (hip: each of two links), a design choice: 21.4 kg, between the devices of 12 kg
-(Exo-H2, Indego) and 23 kg (Ekso, ReWalk) in JNER 2021, s12984-021-00815-5, table 1."""
+"""Hardware of each link [kg] (hip: each of two links), a design choice: 21.4 kg, between the devices of
+12 kg (Exo-H2, Indego) and 23 kg (Ekso, ReWalk) in JNER 2021, s12984-021-00815-5, table 1."""
 
 LIMITS_DEG = {
     "hip_flexion": (-30.0, 120.0),

@@ -1,4 +1,4 @@
-"""Forward kinematics: where the links are, how fast they move, the centre of mass, contact with the ground."""
+"""Forward kinematics: poses and motion of the links, the centre of mass, contact with the ground."""
 
 from exo_pin.kinematics.contact import Contacts, contacts, events
 from exo_pin.kinematics.mass import CenterOfMass, center_of_mass

@@ -16,7 +16,7 @@ from exo_pin.robot import Robot
 Array = npt.NDArray[np.float64]
 
 TOUCH = 0.01
-"""A corner this close to the ground counts as touching [m]: soft soles and averaged gaits leave a centimetre."""
+"""A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
 
 class Contacts(NamedTuple):
@@ -57,15 +57,15 @@ def contacts(
     position = poses(robot, q, CORNERS, base=base)[..., :3, 3]
     height = position[..., 2] - ground
     touching = height <= tolerance
-    feet = touching.reshape(*touching.shape[:-1], len(FEET), -1).any(axis=-1)
+    feet = np.asarray(touching.reshape(*touching.shape[:-1], len(FEET), -1).any(axis=-1))
     return Contacts(CORNERS, position, height, touching, feet)
 
 
 def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008).
 
-    Heel and ball of the foot are followed forward of the pelvis, along its own horizontal heading: that serves
-    on the treadmill and over ground, whatever the direction of the walk.
+    Heel and ball of the foot are followed forward of the pelvis, along its own horizontal heading: that
+    serves on the treadmill and over ground, whatever the direction of the walk.
 
     Raises:
         GaitError: There are no gait cycles in the motion.

@@ -82,8 +82,8 @@ def accelerations(
 ) -> Array:
     """Accelerations (..., F, 6) [m/s^2, rad/s^2]: of the frame's origin and angular, in world axes.
 
-    The linear part is the classical (material) one, the derivative of the origin's velocity; gravity is not in
-    it. Arguments and errors as in `poses`; dq, ddq (..., nv).
+    The linear part is the classical (material) one, the derivative of the origin's velocity; gravity is not
+    in it. Arguments and errors as in `poses`; dq, ddq (..., nv).
     """
     rows, shape = samples(robot, q)
     speeds, changes = rates(robot, dq, shape, "dq"), rates(robot, ddq, shape, "ddq")
@@ -154,7 +154,7 @@ def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     base = np.asarray(base, dtype=float)
     if base.shape not in ((4, 4), (*shape, 4, 4)):
         raise DescriptionError(f"base has shape {base.shape}; (4, 4) or {(*shape, 4, 4)} is accepted")
-    return base @ np.linalg.inv(robot.placement)
+    return np.asarray(base @ np.linalg.inv(robot.placement))
 
 
 def _spatial(

@@ -1,10 +1,4 @@
-"""The witness: forward kinematics by hand in NumPy, twice, without Pinocchio and without the URDF.
-
-1. `recursion`: the paper's Eq. (1) to (6) over its family tree of links, Rodrigues' formula for each joint.
-2. `modified_dh`: Craig's modified Denavit-Hartenberg table of each leg.
-
-Both know only a `Body` and the meaning of the joint names. All frames are parallel to the pelvis at q = 0.
-"""
+"""Craig's modified Denavit-Hartenberg table of each leg, for both hip orders."""
 
 from __future__ import annotations
 
@@ -15,29 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES
-from exo_pin.errors import UnknownNameError
+from exo_pin.anatomy.names import SIDES
+from exo_pin.dh.leg import chain, soles
 
 Array = npt.NDArray[np.float64]
-
-RIGHT_AXES = {
-    "hip_flexion": (0.0, -1.0, 0.0),
-    "hip_adduction": (1.0, 0.0, 0.0),
-    "hip_rotation": (0.0, 0.0, 1.0),
-    "knee_flexion": (0.0, 1.0, 0.0),
-    "ankle_dorsiflexion": (0.0, -1.0, 0.0),
-    "ankle_inversion": (1.0, 0.0, 0.0),
-}
-"""Axis of each movement of the right leg; the left leg's x and z components are negated (mirror image)."""
-
-
-class Link(NamedTuple):
-    """A link of the family tree: `b_j` and `a_j` of the paper, in the mother's frame."""
-
-    name: str
-    mother: str
-    offset: Array
-    axis: Array
 
 
 class Row(NamedTuple):
@@ -48,68 +23,6 @@ class Row(NamedTuple):
     a: float
     offset: float
     d: float
-
-
-def chain(hip_order: str = "clinical") -> tuple[str, ...]:
-    """The movements of a leg from the pelvis outwards.
-
-    Raises:
-        UnknownNameError: The hip order is unknown.
-    """
-    if hip_order not in HIP_ORDERS:
-        raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
-    return (*HIP_ORDERS[hip_order], *MOVEMENTS[3:])
-
-
-def tree(body: Body, hip_order: str = "clinical") -> list[Link]:
-    """The paper's family tree: pelvis, then each leg's joints outwards; a joint's link bears its name."""
-    links = []
-    for side, s in zip(SIDES, (1.0, -1.0), strict=True):
-        leg = body.leg(side)
-        offsets = {
-            0: (0.0, s * body.hip_width / 2, 0.0),
-            3: (0.0, 0.0, -leg.thigh),
-            4: (0.0, 0.0, -leg.shank),
-        }
-        mother = "pelvis"
-        for i, movement in enumerate(chain(hip_order)):
-            x, y, z = RIGHT_AXES[movement]
-            axis = np.array([-s * x, y, -s * z])
-            name = f"{side}_{movement}"
-            links.append(Link(name, mother, np.array(offsets.get(i, (0.0, 0.0, 0.0))), axis))
-            mother = name
-    return links
-
-
-def recursion(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") -> dict[str, Array]:
-    """Poses by the paper's recursion, relative to the pelvis.
-
-    Args:
-        body: Sizes of the exoskeleton.
-        q: Joint angles (..., 12) [rad]: left, then right leg, each in the order of `chain(hip_order)`.
-        hip_order: Order of the hip joints.
-
-    Returns:
-        T_pelvis_link (..., 4, 4) by joint name, and by `left_foot` and `right_foot` on the soles.
-    """
-    q = np.asarray(q, dtype=float)
-    poses = {"pelvis": np.broadcast_to(np.eye(4), (*q.shape[:-1], 4, 4))}
-    for column, link in enumerate(tree(body, hip_order)):
-        poses[link.name] = poses[link.mother] @ _joint(link, q[..., column])  # Eq. 3
-    del poses["pelvis"]
-    return poses | _feet(body, poses)
-
-
-def _joint(link: Link, angle: Array) -> Array:
-    """Eq. 1: [e^(a^ q), b; 0, 1] with Rodrigues' I + a^ sin q + a^2 (1 - cos q); a^ is Eq. 2."""
-    x, y, z = link.axis
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    T = np.zeros((*angle.shape, 4, 4))
-    sin, cos = np.sin(angle)[..., None, None], np.cos(angle)[..., None, None]
-    T[..., :3, :3] = np.eye(3) + skew * sin + skew @ skew * (1 - cos)
-    T[..., :3, 3] = link.offset
-    T[..., 3, 3] = 1.0
-    return T
 
 
 _BASE_FRAMES = {
@@ -182,7 +95,7 @@ def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") ->
         zero = _product(body, side, rows, np.zeros(6), hip_order)
         for row, T, T0, place in zip(rows, raw, zero, _places(body, side), strict=True):
             poses[row.joint] = T @ np.linalg.inv(T0) @ place  # from the D-H frame to one parallel at zero
-    return poses | _feet(body, poses)
+    return poses | soles(body, poses)
 
 
 def _product(body: Body, side: str, rows: list[Row], q: Array, hip_order: str) -> list[Array]:
@@ -220,13 +133,3 @@ def _places(body: Body, side: str) -> list[Array]:
         place[:3, 3] = 0.0, y, z
         places.append(place)
     return places
-
-
-def _feet(body: Body, poses: dict[str, Array]) -> dict[str, Array]:
-    """The frames on the soles, straight under the ankles."""
-    feet = {}
-    for side in SIDES:
-        below = np.eye(4)
-        below[2, 3] = -body.leg(side).ankle_height
-        feet[f"{side}_foot"] = poses[f"{side}_{MOVEMENTS[-1]}"] @ below
-    return feet

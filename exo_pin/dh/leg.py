@@ -1,0 +1,33 @@
+"""What both witnesses know of a leg: the order of its joints and where the sole is."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy.body import Body
+from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES
+from exo_pin.errors import UnknownNameError
+
+Array = npt.NDArray[np.float64]
+
+
+def chain(hip_order: str = "clinical") -> tuple[str, ...]:
+    """The movements of a leg from the pelvis outwards.
+
+    Raises:
+        UnknownNameError: The hip order is unknown.
+    """
+    if hip_order not in HIP_ORDERS:
+        raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
+    return (*HIP_ORDERS[hip_order], *MOVEMENTS[3:])
+
+
+def soles(body: Body, poses: dict[str, Array]) -> dict[str, Array]:
+    """The frames `left_foot` and `right_foot` on the soles, straight under the ankles."""
+    feet = {}
+    for side in SIDES:
+        below = np.eye(4)
+        below[2, 3] = -body.leg(side).ankle_height
+        feet[f"{side}_foot"] = poses[f"{side}_{MOVEMENTS[-1]}"] @ below
+    return feet

@@ -1,0 +1,118 @@
+"""Loading: from a body, or from any URDF, to a `Robot`."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin import description
+from exo_pin.anatomy import Body
+from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.robot.model import Robot
+
+Array = npt.NDArray[np.float64]
+
+
+def load_robot(
+    body: Body | None = None,
+    *,
+    device: str = "exo12",
+    hip_order: str = "clinical",
+    base: str = "fixed",
+) -> Robot:
+    """The exoskeleton for a body.
+
+    Args:
+        body: Sizes and masses; `Body.from_stature()` if left out.
+        device: Name of the device, one of `exo_pin.devices.DEVICES`.
+        hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        base: `"fixed"`: the pelvis is held as in the paper; `"floating"`: it has six degrees of freedom.
+
+    Raises:
+        UnknownNameError: Device, hip order or base is unknown.
+    """
+    body = Body.from_stature() if body is None else body
+    text = description.urdf(body, device=device, hip_order=hip_order)
+    placement = np.eye(4)
+    placement[2, 3] = body.leg_length
+    robot = load_urdf(text, base=base, placement=placement)
+    return dataclasses.replace(robot, body=body, hip_order=hip_order)
+
+
+def load_urdf(
+    source: str | Path,
+    *,
+    base: str = "fixed",
+    placement: npt.ArrayLike | None = None,
+    hip_order: str = "clinical",
+) -> Robot:
+    """A robot from any URDF.
+
+    Args:
+        source: Path of a URDF file, or its text.
+        base: `"fixed"` or `"floating"`.
+        placement: Pose of the root link in the world (4, 4); the identity if left out.
+        hip_order: Order of its hip joints, should it have the joints of `JOINTS`.
+
+    Raises:
+        DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts.
+    """
+    if base not in ("fixed", "floating"):
+        raise UnknownNameError("base", base, ("fixed", "floating"))
+    text = _text(source)
+    try:
+        root = (pin.JointModelFreeFlyer(),) if base == "floating" else ()
+        model = pin.buildModelFromXML(text, *root)
+    except (ValueError, RuntimeError) as error:
+        raise DescriptionError(f"Pinocchio does not accept this URDF: {error}") from None
+    names = tuple(model.names)[2 if base == "floating" else 1 :]
+    for name in names:
+        if model.joints[model.getJointId(name)].nq != 1:
+            raise DescriptionError(f"joint {name!r} is not revolute or prismatic with limits")
+    stand = np.eye(4) if placement is None else np.array(placement, dtype=float)
+    if base == "fixed":
+        _stand(model, pin.SE3(stand))
+    k = len(names)
+    return Robot(
+        model=model,
+        urdf=text,
+        joints=names,
+        lower=_frozen(model.lowerPositionLimit[-k:]),
+        upper=_frozen(model.upperPositionLimit[-k:]),
+        velocity=_frozen(model.velocityLimit[-k:]),
+        effort=_frozen(model.effortLimit[-k:]),
+        placement=_frozen(stand),
+        base=base,
+        hip_order=hip_order,
+    )
+
+
+def _text(source: str | Path) -> str:
+    if isinstance(source, str) and "<" in source:
+        return source
+    try:
+        return Path(source).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DescriptionError(f"{source}: cannot be read: {error}") from None
+
+
+def _stand(model: Any, placement: Any) -> None:
+    """Move everything that hangs on the world, so that Pinocchio's world is W."""
+    for j in range(1, model.njoints):
+        if model.parents[j] == 0:
+            model.jointPlacements[j] = placement * model.jointPlacements[j]
+    for frame in model.frames[1:]:
+        if frame.parentJoint == 0:
+            frame.placement = placement * frame.placement
+    model.inertias[0] = placement.act(model.inertias[0])
+
+
+def _frozen(values: npt.ArrayLike) -> Array:
+    array = np.array(values, dtype=float)
+    array.flags.writeable = False
+    return array
