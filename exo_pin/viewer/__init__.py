@@ -1,0 +1,33 @@
+"""The viewer: a walk in the browser, live or as one offline page.
+
+`scene(robot, gait)` makes the picture as a value, `html(scene)` a self-contained page of it, and
+`serve(scene)` shows the same page from a server on this machine. Imports happen when a name is first used,
+so a server can start before Pinocchio is loaded.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from exo_pin.viewer.compiler import scene
+    from exo_pin.viewer.export import html
+    from exo_pin.viewer.facts import Scene
+    from exo_pin.viewer.server import Server, serve
+
+__all__ = ["Scene", "Server", "html", "scene", "serve"]
+
+_HOMES = {
+    "Scene": "facts",
+    "Server": "server",
+    "html": "export",
+    "scene": "compiler",
+    "serve": "server",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -1,0 +1,71 @@
+"""Which foot stands when: from the gait's events, or estimated from the lowest corners of the soles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.errors import GaitError
+from exo_pin.gait import Gait
+
+Intervals = dict[str, tuple[tuple[float, float], ...]]
+"""Side -> (from, to) [s] after the gait's first sample."""
+
+NEAR_GROUND = 0.010
+"""A foot whose lowest corner is this close to the lower foot's is taken to stand as well [m] (a choice)."""
+
+
+def from_events(gait: Gait) -> Intervals | None:
+    """Stance of both feet from heel strikes and toe-offs, or None where the events do not tell."""
+    try:
+        for side in SIDES:
+            gait.stance(side)  # checks that there are events, and that strike and toe-off take turns
+    except GaitError:
+        return None
+    return {side: _between(gait, side) for side in SIDES}
+
+
+def estimated(gait: Gait, heights: Mapping[str, NDArray[np.float64]]) -> Intervals:
+    """Stance guessed from heights: the lower foot stands, and the other if it is nearly as low.
+
+    Args:
+        gait: Whose samples the heights belong to.
+        heights: Side -> `(n,)` height of the sole's lowest corner [m].
+    """
+    lowest = np.minimum(*(heights[side] for side in SIDES))
+    return {side: _runs(gait, heights[side] <= lowest + NEAR_GROUND) for side in SIDES}
+
+
+def lowest_corners(positions: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Side -> `(n,)` lowest height, from the positions `(n, 8, 3)` of `CORNERS` [m]."""
+    mine = {side: [k for k, name in enumerate(CORNERS) if name.startswith(side)] for side in SIDES}
+    return {side: positions[:, mine[side], 2].min(axis=1) for side in SIDES}
+
+
+def samples(intervals: Intervals, side: str, time: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """`(n,)` whether the side stands at times [s] after the gait's first sample."""
+    inside = np.zeros(len(time), dtype=bool)
+    for start, end in intervals[side]:
+        inside |= (start <= time) & (time < end)
+    return inside
+
+
+def _between(gait: Gait, side: str) -> tuple[tuple[float, float], ...]:
+    mine = [(event.time - float(gait.time[0]), event.kind) for event in gait.events if event.side == side]
+    spans = [(a, b) for (a, kind), (b, _) in pairwise(mine) if kind == "heel_strike"]
+    first, last = mine[0], mine[-1]
+    if first[1] == "toe_off":  # it stood before its first event, in a periodic gait since the last cycle
+        spans.insert(0, (0.0, first[0]))
+    if last[1] == "heel_strike":
+        spans.append((last[0], gait.duration))
+    return tuple((a, b) for a, b in spans if b > a)
+
+
+def _runs(gait: Gait, standing: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+    edges = np.flatnonzero(np.diff(np.r_[False, standing, False].astype(int)))
+    time = np.r_[gait.time - gait.time[0], gait.duration]
+    return tuple((float(time[a]), float(time[b])) for a, b in zip(edges[::2], edges[1::2], strict=True))

@@ -1,0 +1,207 @@
+"""The exoskeleton's links as nested nodes, read from the robot's own URDF text.
+
+A joint becomes two nodes: the placement of the child in its parent, fixed, and inside it `turn`, which the
+page rotates. The child's pictures and its own joints hang in `turn`, so the page does forward kinematics by
+turning the joint nodes and nothing else.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.errors import DescriptionError
+from exo_pin.viewer.protocol import Command, Material, Shape, box, cylinder, draw, place, sphere
+
+Array = NDArray[np.float64]
+
+FINISHES = {
+    "aluminium": (0.32, 0.55),
+    "graphite": (0.42, 0.25),
+    "shell": (0.35, 0.05),
+    "cuff": (0.85, 0.0),
+    "rubber": (0.95, 0.0),
+    "signal": (0.40, 0.0),
+}
+"""Roughness and metalness of the URDF's materials by name (design choice); the colours stay the URDF's."""
+
+PLAIN = (0.42, 0.10)
+"""Roughness and metalness of every other material."""
+
+GREY = (0.7, 0.7, 0.7, 1.0)
+"""Colour where the URDF names none."""
+
+MOVING = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A moving joint in the page.
+
+    Attributes:
+        name: The joint's name.
+        path: The node that turns (or slides).
+        axis: Unit axis in the joint's frame.
+        kind: `"revolute"` or `"prismatic"`.
+    """
+
+    name: str
+    path: str
+    axis: tuple[float, float, float]
+    kind: str
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """A URDF as nested nodes.
+
+    Attributes:
+        root: Path of the root link's node; its pose is the base's pose.
+        links: Link name -> path of the node that has the link's pose.
+        turns: The moving joints, in the URDF's order.
+        commands: What draws it.
+        skipped: Number of visuals that are no primitives and are not drawn.
+    """
+
+    root: str
+    links: dict[str, str]
+    turns: tuple[Turn, ...]
+    commands: tuple[Command, ...]
+    skipped: int
+
+
+def linkage(urdf: str, root: str) -> Linkage:
+    """Nest the links of a URDF below a path.
+
+    Args:
+        urdf: The URDF's text.
+        root: Path of the node for the root link, e.g. `"/exo_pin/exo"`.
+
+    Raises:
+        DescriptionError: The text is no URDF with one root link.
+    """
+    try:
+        robot = ET.fromstring(urdf)
+    except ET.ParseError as error:
+        raise DescriptionError(f"the URDF cannot be read: {error}") from error
+    return _Nesting(robot).below(root)
+
+
+def pose(origin: ET.Element | None) -> Array:
+    """`(4, 4)` pose of a URDF `<origin>`: xyz [m] and fixed-axis roll, pitch, yaw [rad]."""
+    T = np.eye(4)
+    if origin is not None:
+        T[:3, :3] = _rotation(*_numbers(origin.get("rpy", "0 0 0")))
+        T[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
+    return T
+
+
+class _Nesting:
+    """Walks the tree of links once and collects nodes, joints and pictures."""
+
+    def __init__(self, robot: ET.Element) -> None:
+        self.robot = robot
+        self.colors = {m.get("name", ""): c for m in robot.findall("material") if (c := _rgba(m)) is not None}
+        self.children: dict[str, list[ET.Element]] = defaultdict(list)
+        for joint in robot.findall("joint"):
+            self.children[_end(joint, "parent")].append(joint)
+        self.elements = {link.get("name", ""): link for link in robot.findall("link")}
+        self.links: dict[str, str] = {}
+        self.turns: list[Turn] = []
+        self.commands: list[Command] = []
+        self.skipped = 0
+
+    def below(self, path: str) -> Linkage:
+        moved = {_end(joint, "child") for joint in self.robot.findall("joint")}
+        roots = [name for name in self.elements if name not in moved]
+        if len(roots) != 1:
+            raise DescriptionError(f"the URDF must have one root link, not {len(roots)}: {', '.join(roots)}")
+        self.link(roots[0], path)
+        return Linkage(path, self.links, tuple(self.turns), tuple(self.commands), self.skipped)
+
+    def link(self, name: str, path: str) -> None:
+        self.links[name] = path
+        for k, visual in enumerate(self.elements[name].findall("visual")):
+            self.picture(visual, f"{path}/look/{k}")
+        for joint in self.children[name]:
+            self.joint(joint, path)
+
+    def picture(self, visual: ET.Element, path: str) -> None:
+        shape = _shape(visual.find("geometry"))
+        if shape is None:
+            self.skipped += 1
+            return
+        self.commands += [draw(path, shape, self.material(visual)), place(path, pose(visual.find("origin")))]
+
+    def joint(self, joint: ET.Element, path: str) -> None:
+        child, name = _end(joint, "child"), joint.get("name", "")
+        held = f"{path}/{_node(child)}"
+        self.commands.append(place(held, pose(joint.find("origin"))))
+        kind = MOVING.get(joint.get("type", ""))
+        if kind is None:
+            self.link(child, held)
+            return
+        turn = f"{held}/turn"
+        axis = joint.find("axis")
+        direction = np.array(_numbers(axis.get("xyz", "1 0 0")) if axis is not None else [1.0, 0.0, 0.0])
+        x, y, z = (direction / np.linalg.norm(direction)).tolist()
+        self.turns.append(Turn(name, turn, (x, y, z), kind))
+        self.link(child, turn)
+
+    def material(self, visual: ET.Element) -> Material:
+        element = visual.find("material")
+        name = "" if element is None else element.get("name", "")
+        own = None if element is None else _rgba(element)
+        roughness, metalness = FINISHES.get(name, PLAIN)
+        return Material(own or self.colors.get(name, GREY), roughness, metalness)
+
+
+def _shape(geometry: ET.Element | None) -> Shape | None:
+    if geometry is None:
+        return None
+    if (found := geometry.find("box")) is not None:
+        return box(_numbers(found.get("size", "")))
+    if (found := geometry.find("cylinder")) is not None:
+        return cylinder(float(found.get("radius", 0)), float(found.get("length", 0)))
+    if (found := geometry.find("sphere")) is not None:
+        return sphere(float(found.get("radius", 0)))
+    return None
+
+
+def _rotation(roll: float, pitch: float, yaw: float) -> Array:
+    (a, b, c), (s, t, u) = (map(f, (roll, pitch, yaw)) for f in (math.cos, math.sin))
+    Rx = np.array([[1, 0, 0], [0, a, -s], [0, s, a]])
+    Ry = np.array([[b, 0, t], [0, 1, 0], [-t, 0, b]])
+    Rz = np.array([[c, -u, 0], [u, c, 0], [0, 0, 1]])
+    R: Array = Rz @ Ry @ Rx
+    return R
+
+
+def _end(joint: ET.Element, which: str) -> str:
+    element = joint.find(which)
+    if element is None or not element.get("link"):
+        raise DescriptionError(f"joint {joint.get('name')!r} of the URDF names no {which} link")
+    return str(element.get("link"))
+
+
+def _rgba(material: ET.Element) -> tuple[float, float, float, float] | None:
+    color = material.find("color")
+    if color is None:
+        return None
+    red, green, blue, opacity = _numbers(color.get("rgba", "0.7 0.7 0.7 1"))
+    return red, green, blue, opacity
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(part) for part in text.split()]
+
+
+def _node(link: str) -> str:
+    """A link's name as the name of a node: `/` separates nodes, and `<object>` is meshcat's own."""
+    return re.sub(r"[^\w.-]", "_", link)

@@ -1,0 +1,99 @@
+"""The walk as the picture shows it: where pelvis, feet and centre of mass are, and who stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import CORNERS, FEET
+from exo_pin.gait import Gait
+from exo_pin.kinematics import center_of_mass, poses
+from exo_pin.robot import Robot
+from exo_pin.viewer import contact
+from exo_pin.viewer.support import Support, carried
+
+Array = NDArray[np.float64]
+
+OVERGROUND = 0.6
+"""A pelvis that travels further than this [m] walks through the room; else it walks on a treadmill."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What is shown, sampled as the gait is.
+
+    Attributes:
+        time: `(n,)` from 0 [s].
+        q: `(n, J)` joint values in the order of `Robot.joints` [rad].
+        base: `(n, 4, 4)` pose of the pelvis as shown.
+        feet: `(n, 2, 4, 4)` poses of `FEET` as shown.
+        corners: `(n, 8, 3)` sole corners as shown [m].
+        com: `(n, 3)` centre of mass as shown [m].
+        stance: Side -> intervals on the ground.
+        estimated: Whether stance is guessed from heights because the gait has no events.
+        support: How the pelvis was carried, and what remains.
+        overground: Whether the walk goes through the room instead of standing on a treadmill.
+    """
+
+    time: Array
+    q: Array
+    base: Array
+    feet: Array
+    corners: Array
+    com: Array
+    stance: contact.Intervals
+    estimated: bool
+    support: Support
+    overground: bool
+
+
+def motion(robot: Robot, gait: Gait) -> Motion:
+    """Put a robot through a gait and stand it on the ground.
+
+    Args:
+        robot: With the joints of a gait, `FEET` and `CORNERS`.
+        gait: The walk; its own base motion is used if it has one.
+
+    Raises:
+        UnknownNameError: The robot lacks a joint or frame of a walker.
+    """
+    q = at_rest(robot, robot.from_gait(gait))
+    back = np.linalg.inv(robot.placement)
+    T_pelvis = back @ poses(robot, q, (*FEET, *CORNERS))  # (n, 10, 4, 4)
+    com_pelvis = _moved(back, center_of_mass(robot, q).position)
+    given = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
+    travel = np.linalg.norm(given[-1, :2, 3] - given[0, :2, 3])
+    corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
+    known = contact.from_events(gait)
+    stance = known or contact.estimated(gait, contact.lowest_corners(corners))
+    support = carried(gait, given, corners, stance)
+    base = support.base
+    shown = base[:, None] @ T_pelvis
+    return Motion(
+        time=gait.time - gait.time[0],
+        q=robot.angles(q),
+        base=base,
+        feet=shown[:, : len(FEET)],
+        corners=shown[:, len(FEET) :, :3, 3],
+        com=_moved(base, com_pelvis),
+        stance=stance,
+        estimated=known is None,
+        support=support,
+        overground=bool(travel > OVERGROUND),
+    )
+
+
+def at_rest(robot: Robot, q: Array) -> Array:
+    """Configurations with a floating base put back to its placement, so that all robots are treated alike."""
+    q = q.copy()
+    if robot.base == "floating":
+        free = robot.nq - len(robot.joints)
+        q[:, :free] = robot.neutral[:free]
+    return q
+
+
+def _moved(T: Array, points: Array) -> Array:
+    out: Array = (T[..., :3, :3] @ points[..., None])[..., 0] + T[..., :3, 3]
+    return out

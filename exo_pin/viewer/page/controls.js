@@ -1,0 +1,80 @@
+/* Controls: buttons, slider and keys. They only call the player; the player tells them what to show. */
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 1.5, 2];
+
+class Controls {
+  constructor(player) {
+    this.player = player;
+    this.part = (id) => document.getElementById(id);
+    this.wire("play", () => player.toggle());
+    this.wire("back", () => player.step(-1));
+    this.wire("forward", () => player.step(1));
+    this.wire("loop", () => player.setLoop(!player.clock.loop));
+    this.part("seek").oninput = (event) => player.seek(Number(event.target.value) * player.clock.duration);
+    this.part("speed").replaceChildren(...SPEEDS.map((speed) => new Option(`${speed}\u00d7`, String(speed))));
+    this.part("speed").onchange = (event) => player.setSpeed(Number(event.target.value));
+    this.wire("help", () => this.part("about").showModal());
+    this.part("cameras").replaceChildren(...Object.keys(CAMERAS).map((name) => this.camera(name)));
+    addEventListener("keydown", (event) => this.key(event));
+  }
+
+  wire(id, action) {
+    this.part(id).onclick = action;
+  }
+
+  camera(name) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = CAMERAS[name].label;
+    button.dataset.camera = name;
+    button.onclick = () => this.player.look(name);
+    return button;
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || this.part("about").open) return;
+    const { player } = this;
+    const names = Object.keys(CAMERAS);
+    const actions = {
+      " ": () => player.toggle(),
+      ArrowLeft: () => player.step(event.shiftKey ? -10 : -1),
+      ArrowRight: () => player.step(event.shiftKey ? 10 : 1),
+      Home: () => player.seek(0),
+      End: () => player.seek(player.clock.duration),
+      l: () => player.setLoop(!player.clock.loop),
+      "-": () => player.faster(-1),
+      "+": () => player.faster(1),
+      "=": () => player.faster(1),
+      "?": () => this.part("about").showModal(),
+    };
+    names.forEach((name, k) => (actions[String(k + 1)] = () => player.look(name)));
+    const action = actions[event.key];
+    const typing = /^(SELECT|TEXTAREA)$/.test(event.target.tagName);
+    const pressing = event.key === " " && /^(BUTTON|INPUT|SUMMARY|A)$/.test(event.target.tagName);
+    if (!action || typing || pressing) return;
+    event.preventDefault();
+    action();
+  }
+
+  show({ clock, motion, view }) {
+    const { time, duration, playing, loop, speed } = clock;
+    const set = (id, name, value) => {
+      if (this.part(id).getAttribute(name) !== value) this.part(id).setAttribute(name, value);
+    };
+    set("play", "aria-label", playing ? "Pause" : "Play");
+    set("play", "aria-pressed", String(playing));
+    set("loop", "aria-pressed", String(loop));
+    const share = duration > 0 ? time / duration : 0;
+    const percent = `${(share * 100).toFixed(1)} %`;
+    this.part("seek").value = String(share);
+    this.part("seek").style.setProperty("--share", String(share));
+    set("seek", "aria-valuetext", `${time.toFixed(2)} s, ${percent}`);
+    this.part("percent").textContent = percent;
+    this.part("seconds").textContent = `${time.toFixed(2)} / ${duration.toFixed(2)} s`;
+    this.part("speed").value = String(speed);
+    for (const button of this.part("cameras").children) {
+      button.setAttribute("aria-pressed", String(button.dataset.camera === view));
+    }
+    this.part("percent").title = motion.periodic ? "share of the gait cycle" : "share of the recording";
+  }
+}

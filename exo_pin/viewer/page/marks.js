@@ -1,0 +1,19 @@
+/* Marks: what moves with the walk besides the links: contact soles, centre of mass, treadmill belt. */
+
+class Marks {
+  constructor(stage, marks) {
+    this.stage = stage;
+    this.marks = marks;
+    this.com = stage.node(marks.com);
+    this.ground = stage.node(marks.ground);
+    this.belt = marks.belt ? stage.node(marks.belt.path) : null;
+  }
+
+  set(motion, t, at) {
+    const [x, y, z] = motion.row("com", at);
+    this.com.position.set(x, y, z);
+    this.ground.position.set(x, y, this.marks.height);
+    for (const side of ["left", "right"]) this.stage.show(this.marks.contact[side], motion.inStance(side, t));
+    if (this.belt) this.belt.position.x = -((this.marks.belt.speed * t) % this.marks.belt.pitch);
+  }
+}

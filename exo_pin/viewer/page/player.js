@@ -1,0 +1,152 @@
+/* Player: joins clock, motion, stage, plots and controls; the only place where they meet. */
+
+const REPORT = 500; // [ms] between reports of the playback's state
+
+class Player {
+  constructor() {
+    const part = (id) => document.getElementById(id);
+    this.part = part;
+    this.clock = new Clock(0);
+    this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.view = "iso";
+    this.stage = Stage.open(part("pane"));
+    part("no-webgl").hidden = this.stage !== null;
+    this.plots = new Plots(part("plots"), part("tabs"), (t) => this.seek(t));
+    this.controls = new Controls(this);
+    this.transport = null;
+    this.drawn = null; // time of the last picture
+    if (this.stage) this.watchStage();
+  }
+
+  watchStage() {
+    new ResizeObserver(() => {
+      this.stage.resize();
+      if (this.view && this.header) this.look(this.view);
+    }).observe(this.part("pane"));
+    this.stage.viewer.controls.addEventListener("start", () => (this.view = ""));
+    this.stage.renderer.domElement.addEventListener("webglcontextlost", () => {
+      this.tell("The graphics card dropped the picture; reload the page to see it again.");
+    });
+  }
+
+  async load(zipped) {
+    const { header, commands, arrays } = await readBundle(zipped);
+    if (this.header && this.header.id === header.id) return; // a reconnect: keep playing
+    this.header = header;
+    this.motion = new Motion(header, arrays);
+    const fresh = new Clock(header.duration);
+    fresh.playing = !this.calm;
+    this.clock = fresh;
+    this.describe(header);
+    this.plots.load(this.motion, header.plots);
+    if (this.stage) this.build(header, commands);
+    this.drawn = null;
+  }
+
+  describe(header) {
+    document.title = header.title;
+    this.part("title").textContent = header.title;
+    this.part("subtitle").textContent = header.subtitle;
+    this.part("notes").replaceChildren(
+      ...header.notes.map((note) => Object.assign(document.createElement("p"), { textContent: note })),
+    );
+    this.part("dashed").hidden = !header.reference;
+    this.part("dashed-title").textContent = header.reference;
+    this.part("contact-title").textContent = header.contact;
+  }
+
+  build(header, commands) {
+    this.stage.resize();
+    this.stage.load(header, commands);
+    this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
+    this.marks = new Marks(this.stage, header.marks);
+    fillToggles(this.part("toggles"), header.groups, this.stage);
+    this.look(this.view || "iso");
+  }
+
+  /** Brings picture, plots and read-out to the clock's time. */
+  apply() {
+    const t = this.clock.time;
+    const at = this.motion.at(t);
+    if (this.stage) {
+      for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
+      this.marks.set(this.motion, t, at);
+      this.stage.viewer.set_dirty();
+    }
+    this.plots.draw(t, at);
+    this.drawn = t;
+  }
+
+  frame(now) {
+    if (this.motion) {
+      this.clock.tick(now);
+      if (this.clock.time !== this.drawn) this.apply();
+      this.controls.show(this);
+      if (this.stage) this.stage.draw();
+      if (now - (this.reported || 0) > REPORT) this.report(now);
+    }
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  report(now) {
+    this.reported = now;
+    const { time, playing, speed, loop } = this.clock;
+    this.transport.report({ time: playing ? Number(time.toFixed(2)) : time, playing, speed, loop, view: this.view });
+  }
+
+  resume({ type, time, playing, speed, loop, view }) {
+    if (type !== "state" || !this.motion) return;
+    this.clock.seek(time);
+    this.clock.speed = speed;
+    this.clock.loop = loop;
+    this.clock.play(playing && !this.calm);
+    if (CAMERAS[view]) this.look(view);
+  }
+
+  /** Shows one pose that Python sent: base (7), then the joints. */
+  pose(values) {
+    if (!this.stage || !this.chains) return;
+    this.clock.play(false);
+    const turn = new MeshCat.THREE.Quaternion().fromArray(values, 3);
+    this.chains[0].set(values.slice(7), { position: values.slice(0, 3), turn });
+    this.stage.viewer.set_dirty();
+  }
+
+  toggle() {
+    this.clock.play(!this.clock.playing);
+  }
+
+  seek(t) {
+    this.clock.play(false);
+    this.clock.seek(t);
+  }
+
+  step(count) {
+    let t = this.clock.time;
+    for (let k = 0; k < Math.abs(count); k++) t = this.motion.neighbour(t, Math.sign(count));
+    this.seek(t);
+  }
+
+  setLoop(on) {
+    this.clock.loop = on;
+  }
+
+  setSpeed(speed) {
+    this.clock.speed = speed;
+  }
+
+  faster(by) {
+    const k = SPEEDS.indexOf(this.clock.speed) + by;
+    this.setSpeed(SPEEDS[Math.min(Math.max(k, 0), SPEEDS.length - 1)]);
+  }
+
+  look(name) {
+    this.view = name;
+    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes);
+  }
+
+  tell(text) {
+    this.part("notice").textContent = text;
+    this.part("notice").hidden = !text;
+  }
+}

@@ -1,0 +1,57 @@
+/* Plots: the column of synchronised plots with tabs; click or drag in one seeks in all. */
+
+class Plots {
+  constructor(holder, tabs, seek) {
+    this.holder = holder;
+    this.tabs = tabs;
+    this.seek = seek;
+    this.plots = [];
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(holder);
+  }
+
+  load(motion, groups) {
+    this.motion = motion;
+    this.groups = groups;
+    this.tabs.replaceChildren(...groups.map((group, k) => this.tab(group, k)));
+    this.tabs.hidden = groups.length < 2;
+    this.choose(0);
+  }
+
+  tab(group, k) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.setAttribute("role", "tab");
+    button.textContent = group.title;
+    button.onclick = () => this.choose(k);
+    return button;
+  }
+
+  choose(k) {
+    [...this.tabs.children].forEach((button, i) => button.setAttribute("aria-selected", String(i === k)));
+    this.holder.replaceChildren();
+    this.plots = this.groups[k].plots.map((spec) => new Plot(spec, this.motion, this.groups[k], this.holder));
+    for (const plot of this.plots) this.listen(plot);
+    this.resize();
+  }
+
+  listen(plot) {
+    const go = (event) => this.seek(plot.x.at(event.clientX - plot.canvas.getBoundingClientRect().left));
+    plot.canvas.onpointerdown = (event) => {
+      plot.canvas.setPointerCapture(event.pointerId);
+      plot.canvas.onpointermove = go;
+      go(event);
+    };
+    plot.canvas.onpointerup = plot.canvas.onpointercancel = () => (plot.canvas.onpointermove = null);
+  }
+
+  resize() {
+    for (const plot of this.plots) plot.resize();
+    if (this.last) this.draw(...this.last);
+  }
+
+  draw(t, at) {
+    this.last = [t, at];
+    for (const plot of this.plots) plot.draw(t, at);
+  }
+}

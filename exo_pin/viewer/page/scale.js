@@ -1,0 +1,51 @@
+/* Scale: from values to pixels, with ticks at round numbers. */
+
+/** Round step that cuts a span into about `parts` pieces. */
+function roundStep(span, parts) {
+  const raw = span / parts;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  return [1, 2, 5, 10].map((k) => k * power).find((step) => step >= raw * 0.999);
+}
+
+/** Lowest and highest value of one column, widened a little and never flat. */
+function columnRange(arrays, column) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const { data, width } of arrays) {
+    for (let k = column; k < data.length; k += width) {
+      if (!Number.isFinite(data[k])) continue;
+      low = Math.min(low, data[k]);
+      high = Math.max(high, data[k]);
+    }
+  }
+  return low <= high ? [low, high] : [-1, 1];
+}
+
+class Scale {
+  constructor(low, high, from, to) {
+    this.low = low;
+    this.high = high;
+    this.from = from;
+    this.to = to;
+  }
+
+  /** Pixel of a value. */
+  of(value) {
+    return this.from + ((value - this.low) / (this.high - this.low)) * (this.to - this.from);
+  }
+
+  /** Value at a pixel, kept inside the scale. */
+  at(pixel) {
+    const part = (pixel - this.from) / (this.to - this.from);
+    return this.low + Math.min(Math.max(part, 0), 1) * (this.high - this.low);
+  }
+
+  ticks(parts) {
+    const step = roundStep(this.high - this.low, parts);
+    const out = [];
+    for (let v = Math.ceil(this.low / step - 1e-9) * step; v <= this.high + step * 1e-9; v += step) {
+      out.push(Math.abs(v) < step * 1e-9 ? 0 : v);
+    }
+    return out;
+  }
+}

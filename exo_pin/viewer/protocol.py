@@ -1,0 +1,153 @@
+"""Meshcat's drawing commands as plain dicts: shapes, materials, placements; the same bytes on every run.
+
+meshcat's own Python classes draw random identifiers and take 0.2 s to import (they bring ZMQ along); the
+protocol itself is three.js's JSON object format in four kinds of command, and that is all the page needs.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Command = dict[str, Any]
+"""One meshcat command: `type`, `path` and what belongs to the type."""
+
+Array = NDArray[np.float64]
+
+_SEGMENTS = 40
+_FLOAT32, _UINT32 = 0x17, 0x16  # msgpack extension types of three.js's typed arrays
+_UPRIGHT = [1.0, 0, 0, 0, 0, 0, 1.0, 0, 0, -1.0, 0, 0, 0, 0, 0, 1.0]
+"""Turns three.js's cylinder, whose axis is y, to the URDF's z (column by column)."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """How a surface looks.
+
+    Attributes:
+        color: Red, green, blue and opacity, each from 0 to 1.
+        roughness: 0 mirror, 1 chalk.
+        metalness: 0 plastic, 1 bare metal.
+        glow: Share of the colour that shines by itself.
+        more: Further three.js properties, e.g. `depthWrite`.
+    """
+
+    color: tuple[float, float, float, float]
+    roughness: float = 0.5
+    metalness: float = 0.1
+    glow: float = 0.0
+    more: tuple[tuple[str, Any], ...] = ()
+
+    def command(self) -> Command:
+        """The material as three.js reads it."""
+        red, green, blue, opacity = self.color
+        data = {
+            "type": "MeshStandardMaterial",
+            "color": hexadecimal((red, green, blue)),
+            "emissive": hexadecimal((red * self.glow, green * self.glow, blue * self.glow)),
+            "roughness": self.roughness,
+            "metalness": self.metalness,
+            "opacity": opacity,
+            "transparent": opacity < 1.0,
+            "side": 0,
+        }
+        return data | dict(self.more)
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A geometry as three.js reads it, and the placement that belongs to the shape itself."""
+
+    geometry: Command
+    matrix: Sequence[float] = field(default_factory=lambda: np.eye(4).ravel().tolist())
+
+
+def hexadecimal(color: Sequence[float]) -> int:
+    """Red, green, blue from 0 to 1 as the number 0xrrggbb."""
+    red, green, blue = (round(255 * min(max(part, 0.0), 1.0)) for part in color)
+    return red << 16 | green << 8 | blue
+
+
+def box(size: Sequence[float]) -> Shape:
+    """A box with the given lengths along x, y, z [m]."""
+    width, height, depth = map(float, size)
+    return Shape({"type": "BoxGeometry", "width": width, "height": height, "depth": depth})
+
+
+def cylinder(radius: float, length: float) -> Shape:
+    """A cylinder along z [m]."""
+    data = {"radiusTop": radius, "radiusBottom": radius, "height": length, "radialSegments": _SEGMENTS}
+    return Shape({"type": "CylinderGeometry", **data}, _UPRIGHT)
+
+
+def sphere(radius: float) -> Shape:
+    """A sphere [m]."""
+    return Shape({"type": "SphereGeometry", "radius": radius, "widthSegments": 28, "heightSegments": 20})
+
+
+def mesh(vertices: ArrayLike, faces: ArrayLike, normals: ArrayLike | None = None) -> Shape:
+    """Triangles: vertices `(v, 3)` [m], faces `(f, 3)`, normals `(v, 3)` (smooth ones are made if absent)."""
+    attributes = {"position": _packed(np.asarray(vertices, dtype="<f4"))}
+    if normals is not None:
+        attributes["normal"] = _packed(np.asarray(normals, dtype="<f4"))
+    index = _packed(np.asarray(faces, dtype="<u4").reshape(-1, 1))
+    return Shape({"type": "BufferGeometry", "data": {"attributes": attributes, "index": index}})
+
+
+def draw(path: str, shape: Shape, material: Material, *, order: int = 0) -> Command:
+    """Puts a shape at a path, replacing what was there; `order` sorts translucent things."""
+    return _object(path, "Mesh", shape, material.command(), {"renderOrder": order} if order else {})
+
+
+def lines(path: str, points: ArrayLike, color: Sequence[float], opacity: float) -> Command:
+    """Separate thin lines: points `(2 k, 3)`, two a line [m]."""
+    position = {"position": _packed(np.asarray(points, dtype="<f4"))}
+    shape = Shape({"type": "BufferGeometry", "data": {"attributes": position}})
+    look = {"color": hexadecimal(color), "opacity": opacity, "transparent": True}
+    return _object(path, "LineSegments", shape, {"type": "LineBasicMaterial", **look}, {})
+
+
+def place(path: str, T: ArrayLike) -> Command:
+    """Sets the pose of a node in its parent, `(4, 4)`."""
+    matrix = np.asarray(T, dtype=np.float64).T.ravel().tolist()
+    return {"type": "set_transform", "path": path, "matrix": matrix}
+
+
+def setting(path: str, name: str, value: Any) -> Command:
+    """Sets a property of a node, e.g. `visible`."""
+    return {"type": "set_property", "path": path, "property": name, "value": value}
+
+
+def translation(x: float, y: float, z: float) -> Array:
+    """`(4, 4)` pose without rotation [m]."""
+    T = np.eye(4)
+    T[:3, 3] = x, y, z
+    return T
+
+
+def _object(path: str, kind: str, shape: Shape, material: Command, extra: Command) -> Command:
+    name = f"{zlib.crc32(path.encode()):08x}"  # three.js wants identifiers: ours come from the path
+    item = {"uuid": f"o{name}", "type": kind, "geometry": f"g{name}", "material": f"m{name}", **extra}
+    return {
+        "type": "set_object",
+        "path": path,
+        "object": {
+            "metadata": {"version": 4.5, "type": "Object"},
+            "geometries": [{"uuid": f"g{name}", **shape.geometry}],
+            "materials": [{"uuid": f"m{name}", **material}],
+            "object": {**item, "matrix": list(shape.matrix)},
+        },
+    }
+
+
+def _packed(rows: NDArray[Any]) -> Command:
+    import umsgpack  # comes with meshcat
+
+    name, code = ("Uint32Array", _UINT32) if rows.dtype.kind == "u" else ("Float32Array", _FLOAT32)
+    data = umsgpack.Ext(code, np.ascontiguousarray(rows).tobytes())
+    return {"itemSize": rows.shape[1], "type": name, "array": data, "normalized": False}
