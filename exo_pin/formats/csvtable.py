@@ -1,0 +1,69 @@
+"""CSV files of our own: comment lines, one header line with exact names, numbers separated by commas."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from exo_pin.errors import FormatError
+from exo_pin.formats.files import read_lines, write_text
+from exo_pin.formats.notes import Note, Notes, split, to_lines
+from exo_pin.formats.table import Array, Table, missing, parse, rows_of_text
+
+
+def read_csv(
+    path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]]
+) -> tuple[Table, tuple[str, ...], list[Note]]:
+    """Read a table whose columns are known by name; their order is free.
+
+    Args:
+        path: The file.
+        required: Columns that must be there.
+        groups: Columns that come all together or not at all, by the group's name.
+
+    Returns:
+        The table, the groups that are there, and the comment lines above the header.
+
+    Raises:
+        FormatError: For anything but such a table, with the line and what was expected.
+    """
+    lines = read_lines(path)
+    start = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), None)
+    if start is None:
+        raise FormatError(
+            path, f"empty; expected a header line {','.join(required[:3])},... and rows of numbers"
+        )
+    names = [name.strip() for name in lines[start].split(",")]
+    _check_separator(path, lines[start], required, start + 1)
+    _check_known(path, names, [*required, *(name for group in groups.values() for name in group)], start + 1)
+    missing(path, names, required, line=start + 1)
+    present = tuple(group for group, columns in groups.items() if set(columns) & set(names))
+    for group in present:
+        missing(path, names, groups[group], line=start + 1)
+    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=",")
+    return table, present, split(lines[:start])
+
+
+def write_csv(path: Path, title: str, notes: Notes, names: Iterable[str], values: Array) -> None:
+    """Write a title for people, the notes, the header and the rows."""
+    rows = rows_of_text(values, ",")
+    write_text(path, "\n".join([f"# {title}", *to_lines(notes), ",".join(names), *rows, ""]))
+
+
+def _check_separator(path: Path, header: str, required: Sequence[str], line: int) -> None:
+    other = next((mark for mark in (";", "\t") if mark in header), None)
+    if other and "," not in header and required[0] in header:
+        shown = "semicolons" if other == ";" else "tabs"
+        raise FormatError(
+            path, f"columns are separated by {shown}; expected commas and decimal points", line=line
+        )
+
+
+def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: int) -> None:
+    for name in names:
+        if name in known:
+            continue
+        close = difflib.get_close_matches(name[:80], known, n=1)
+        hint = f"did you mean {close[0]!r}?" if close else f"accepted: {', '.join(known)}"
+        raise FormatError(path, f"unknown column {name[:80]!r}; {hint}", line=line)

@@ -1,0 +1,82 @@
+"""Text files in and out: a size cap when reading, never a half-written file when writing."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+from pathlib import Path
+
+from exo_pin.errors import FormatError
+
+LARGEST_FILE = 128 * 2**20
+"""No more than this is read [bytes]: an hour of a walk at 100 Hz in full digits; bounds time and memory."""
+
+
+def read_lines(path: str | Path) -> list[str]:
+    """The lines of a UTF-8 text file without their ends, whatever ends them (Unix, Windows, old Mac).
+
+    Raises:
+        FormatError: If it is no file, cannot be read, is too large, or is not text.
+    """
+    path = Path(path)
+    try:
+        if not path.exists():
+            raise FormatError(path, "no such file")
+        if not path.is_file():
+            raise FormatError(path, "not a file" + (" but a folder" if path.is_dir() else ""))
+        with path.open("rb") as file:
+            data = file.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:  # ValueError: a path with a zero byte in it
+        raise FormatError(path, f"cannot be read: {_reason(error)}") from error
+    if len(data) > LARGEST_FILE:
+        raise FormatError(path, f"larger than {LARGEST_FILE // 2**20} MiB; split or resample the recording")
+    return _decoded(path, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+def _decoded(path: Path, data: bytes) -> str:
+    if b"\0" in data:
+        raise FormatError(path, "not a text file (it holds zero bytes); expected UTF-8 text")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise FormatError(path, "not UTF-8 text; save the file as UTF-8", line=line) from error
+
+
+def write_text(path: str | Path, text: str) -> None:
+    """Write UTF-8 text: first to a temporary name in the same folder, then renamed, so all or nothing.
+
+    A link is followed; what is no plain file (a terminal, a pipe, /dev/null) is written to directly.
+
+    Raises:
+        FormatError: If the file cannot be written.
+    """
+    shown = Path(path)
+    try:
+        target = Path(os.path.realpath(shown))
+        data = text.encode("utf-8")
+        if target.exists() and not target.is_file() and not target.is_dir():
+            target.write_bytes(data)
+        else:
+            _replace(target, data)
+    except (OSError, ValueError) as error:
+        raise FormatError(shown, f"cannot be written: {_reason(error)}") from error
+
+
+def _replace(target: Path, data: bytes) -> None:
+    draft = target.with_name(f".{target.name[:99]}.{secrets.token_hex(4)}.part")
+    try:
+        with draft.open("xb") as file:  # x: never into a file or link that somebody else has put there
+            file.write(data)
+        if target.exists():
+            draft.chmod(target.stat().st_mode & 0o777)
+        draft.replace(target)
+    except BaseException:  # an interrupted write must not leave its draft behind either
+        with contextlib.suppress(OSError):
+            draft.unlink()
+        raise
+
+
+def _reason(error: Exception) -> str:
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)

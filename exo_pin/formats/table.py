@@ -1,0 +1,130 @@
+"""Numeric tables in text files: parsed fast, and the culprit looked for only when that fails."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.errors import FormatError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Named columns of finite numbers.
+
+    Attributes:
+        path: The file.
+        names: Column names, without duplicates.
+        values: `(n, m)`.
+        lines: Line number of each row, counted from 1.
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    values: Array
+    lines: Sequence[int]
+
+    def columns(self, names: Iterable[str]) -> Array:
+        """`(n, k)` values of the named columns, in that order."""
+        return self.values[:, [self.names.index(name) for name in names]]
+
+    def refuse(self, bad: NDArray[np.bool_], names: Sequence[str], why: str) -> None:
+        """Raise `FormatError` for the first cell where `bad (n, k)` holds; `names` are its k columns."""
+        if bad.any():
+            row, k = np.argwhere(bad)[0]
+            value = self.columns([names[k]])[row, 0]
+            raise FormatError(self.path, f"{names[k]} is {value:g}: {why}", line=self.lines[row])
+
+    def angles(self, names: Sequence[str], *, degrees: bool = True) -> Array:
+        """`(n, k)` angles [rad]; raises `FormatError` for one beyond half a turn."""
+        values = self.columns(names)
+        bad = np.abs(values) > (180 if degrees else np.pi)
+        self.refuse(bad, names, f"more than half a turn; expected {'degrees' if degrees else 'radians'}")
+        return np.radians(values) if degrees else values
+
+    def times(self, name: str) -> Array:
+        """`(n,)` the time column; `FormatError` unless there are two rows or more and it increases."""
+        time = self.columns([name])[:, 0]
+        if len(time) < 2:
+            raise FormatError(self.path, "only one row of data; a walk has at least 2", line=self.lines[0])
+        late = np.flatnonzero(np.diff(time) <= 0)
+        if late.size:
+            why = f"{name} does not increase: {time[late[0] + 1]:.12g} after {time[late[0]]:.12g}"
+            raise FormatError(
+                self.path, f"{why}; expected strictly increasing seconds", line=self.lines[late[0] + 1]
+            )
+        return time
+
+
+def parse(
+    path: Path, names: Sequence[str], lines: Sequence[str], *, first: int, delimiter: str | None
+) -> Table:
+    """Read the rows below a header.
+
+    Args:
+        path: The file, for messages.
+        names: Names of the columns.
+        lines: The rows; empty ones are skipped.
+        first: Line number of `lines[0]`, counted from 1.
+        delimiter: What separates the cells; None is any blank.
+
+    Raises:
+        FormatError: For duplicate names, no rows, ragged rows, cells that are no number, NaN and infinity.
+    """
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise FormatError(path, f"column {twice[0]!r} occurs more than once", line=first - 1)
+    rows = [(number, line) for number, line in enumerate(lines, first) if line.strip()]
+    if not rows:
+        raise FormatError(path, "no rows of data below the header")
+    try:
+        values = np.loadtxt([line for _, line in rows], delimiter=delimiter, comments=None, ndmin=2)
+    except ValueError as error:
+        raise _culprit(path, names, rows, delimiter, str(error)) from error
+    if values.shape != (len(rows), len(names)):
+        raise _culprit(path, names, rows, delimiter, "the rows do not fit the header")
+    table = Table(path, tuple(names), values, [number for number, _ in rows])
+    table.refuse(~np.isfinite(values), table.names, "expected a finite number")
+    return table
+
+
+def _culprit(
+    path: Path, names: Sequence[str], rows: Sequence[tuple[int, str]], delimiter: str | None, error: str
+) -> FormatError:
+    """The error that names the first line which is at fault."""
+    for number, line in rows:
+        cells = line.split(delimiter)
+        if len(cells) != len(names):
+            why = f"{len(cells)} values, but the header has {len(names)} columns"
+            return FormatError(path, why, line=number)
+        for name, cell in zip(names, cells, strict=True):
+            if not _is_number(cell):
+                shown = cell.strip()[:40]
+                return FormatError(path, f"{name} is {shown!r}, expected a number like 12.5", line=number)
+    return FormatError(path, f"cannot be read as numbers: {error}")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell  # Python reads 1_000, other programs do not
+
+
+def missing(path: Path, names: Sequence[str], expected: Iterable[str], *, line: int) -> None:
+    """Raise `FormatError` that lists which of the expected columns are not there."""
+    gone = [name for name in expected if name not in names]
+    if gone:
+        raise FormatError(path, f"missing column{'s' * (len(gone) > 1)}: {', '.join(gone)}", line=line)
+
+
+def rows_of_text(values: Array, separator: str) -> list[str]:
+    """Each row as text, with as many digits as bring back the same numbers."""
+    return [separator.join(map(repr, row)) for row in values.tolist()]
