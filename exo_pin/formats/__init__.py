@@ -8,10 +8,11 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import gait_csv
+from exo_pin.formats import gait_csv, opensim
+from exo_pin.formats.presets import PRESETS
 from exo_pin.gait import Gait
 
-__all__ = ["FORMATS", "Format", "load_gait", "save_gait"]
+__all__ = ["FORMATS", "PRESETS", "Format", "load_gait", "save_gait"]
 
 
 class Format(NamedTuple):
@@ -30,7 +31,10 @@ class Format(NamedTuple):
     write: Callable[[Gait, Path], None]
 
 
-_ALL = (Format("exo_pin CSV", (".csv",), gait_csv.read_gait, gait_csv.write_gait),)
+_ALL = (
+    Format("exo_pin CSV", (".csv",), gait_csv.read_gait, gait_csv.write_gait),
+    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait),
+)
 
 FORMATS = MappingProxyType({suffix: entry for entry in _ALL for suffix in entry.suffixes})
 """File name ending -> format."""
