@@ -103,7 +103,7 @@ def test_radians_and_degrees_are_told_by_the_header_only(path):
     refused(path, storage(degrees(), header=("Coordinates",)), "no inDegrees in the header")
     refused(path, storage(degrees(), header=("Coordinates", "inDegrees=maybe")), "inDegrees='maybe'")
     refused(
-        path, storage(degrees(), header=("x", "inDegrees=no")), "more than half a turn; expected radians", 4
+        path, storage(degrees(), header=("x", "inDegrees=no")), "more than half a turn; expected radians", 5
     )
 
 

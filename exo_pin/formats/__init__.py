@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 from exo_pin.errors import FormatError
 from exo_pin.formats import gait_csv, opensim
+from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import PRESETS
 from exo_pin.gait import Gait
 
-__all__ = ["FORMATS", "PRESETS", "Format", "load_gait", "save_gait"]
+__all__ = ["FORMATS", "PRESETS", "Format", "Poses", "load_gait", "load_poses", "save_gait", "save_poses"]
 
 
 class Format(NamedTuple):

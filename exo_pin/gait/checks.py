@@ -86,14 +86,14 @@ def check_angles(q: Array, n: int) -> None:
             raise GaitError(f"{JOINTS[joint]} of frame {frame} is {q[frame, joint]:g} rad: {hint}")
 
 
-def check_base(base: Array, n: int) -> None:
-    """Raises `GaitError` unless `base` is `(n, 4, 4)` rigid poses."""
-    if base.shape != (n, 4, 4):
-        raise GaitError(f"base has shape {base.shape}, expected ({n}, 4, 4): a pose T_world_pelvis per time")
-    wrong = rigid.not_rigid(base)
+def check_poses(T: Array, n: int, name: str) -> None:
+    """Raises `GaitError` unless `T` is `(n, 4, 4)` rigid poses; `name` says whose."""
+    if T.shape != (n, 4, 4):
+        raise GaitError(f"{name} has shape {T.shape}, expected ({n}, 4, 4): a pose in the world per time")
+    wrong = rigid.not_rigid(T)
     if wrong is not None:
         raise GaitError(
-            f"base of frame {wrong} is no rigid pose; expected a rotation, metres and last row 0 0 0 1"
+            f"{name} of frame {wrong} is no rigid pose; expected a rotation, metres and last row 0 0 0 1"
         )
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import curves, rigid
-from exo_pin.gait.checks import check_angles, check_base, check_events, check_time, frozen, read_only
+from exo_pin.gait.checks import check_angles, check_events, check_poses, check_time, frozen, read_only
 from exo_pin.gait.event import Event, stance
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Gait:
         check_time(self.time, self.periodic)
         check_angles(self.q, len(self.time))
         if self.base is not None:
-            check_base(self.base, len(self.time))
+            check_poses(self.base, len(self.time), "base")
         put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
         check_events(self.events, float(self.time[0]), self.duration, self.periodic)
 
