@@ -1,76 +1,69 @@
 """exo_pin: a person's walk becomes an exoskeleton's walk.
 
-The public names stand in the table below and are imported when first used.
+`_HOMES` is the one list of what is public; each name is imported when it is first used.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from exo_pin import anatomy, crosscheck, description, devices, dh, formats, gait, ik, kinematics, viewer
-    from exo_pin.anatomy import FEET, JOINTS, Body
-    from exo_pin.errors import (
-        ConvergenceError,
-        DescriptionError,
-        ExoPinError,
-        FormatError,
-        GaitError,
-        LimitError,
-        UnknownNameError,
-    )
-    from exo_pin.formats import load_gait, save_gait
-    from exo_pin.gait import Event, Gait, normative_gait
-    from exo_pin.kinematics import poses
-    from exo_pin.robot import Robot, load_robot, load_urdf
-    from exo_pin.viewer import view
+if TYPE_CHECKING:  # the same names again, for type checkers and editors
+    from exo_pin import anatomy as anatomy
+    from exo_pin import crosscheck as crosscheck
+    from exo_pin import description as description
+    from exo_pin import devices as devices
+    from exo_pin import dh as dh
+    from exo_pin import formats as formats
+    from exo_pin import gait as gait
+    from exo_pin import ik as ik
+    from exo_pin import kinematics as kinematics
+    from exo_pin import viewer as viewer
+    from exo_pin.anatomy import FEET as FEET
+    from exo_pin.anatomy import JOINTS as JOINTS
+    from exo_pin.anatomy import Body as Body
+    from exo_pin.errors import ConvergenceError as ConvergenceError
+    from exo_pin.errors import DescriptionError as DescriptionError
+    from exo_pin.errors import ExoPinError as ExoPinError
+    from exo_pin.errors import FormatError as FormatError
+    from exo_pin.errors import GaitError as GaitError
+    from exo_pin.errors import LimitError as LimitError
+    from exo_pin.errors import UnknownNameError as UnknownNameError
+    from exo_pin.formats import load_gait as load_gait
+    from exo_pin.formats import save_gait as save_gait
+    from exo_pin.gait import Event as Event
+    from exo_pin.gait import Gait as Gait
+    from exo_pin.gait import normative_gait as normative_gait
+    from exo_pin.kinematics import poses as poses
+    from exo_pin.robot import Robot as Robot
+    from exo_pin.robot import load_robot as load_robot
+    from exo_pin.robot import load_urdf as load_urdf
+    from exo_pin.viewer import view as view
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "exo_pin.anatomy": ("Body", "FEET", "JOINTS"),
-    "exo_pin.errors": (
-        "ConvergenceError",
-        "DescriptionError",
-        "ExoPinError",
-        "FormatError",
-        "GaitError",
-        "LimitError",
-        "UnknownNameError",
-    ),
-    "exo_pin.formats": ("load_gait", "save_gait"),
-    "exo_pin.gait": ("Event", "Gait", "normative_gait"),
-    "exo_pin.kinematics": ("poses",),
-    "exo_pin.robot": ("Robot", "load_robot", "load_urdf"),
-    "exo_pin.viewer": ("view",),
+    "exo_pin": "anatomy crosscheck description devices dh formats gait ik kinematics viewer",
+    "exo_pin.anatomy": "Body FEET JOINTS",
+    "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
+    "UnknownNameError",
+    "exo_pin.formats": "load_gait save_gait",
+    "exo_pin.gait": "Event Gait normative_gait",
+    "exo_pin.kinematics": "poses",
+    "exo_pin.robot": "Robot load_robot load_urdf",
+    "exo_pin.viewer": "view",
 }
-_MODULES = (
-    "anatomy",
-    "crosscheck",
-    "description",
-    "devices",
-    "dh",
-    "formats",
-    "gait",
-    "ik",
-    "kinematics",
-    "viewer",
-)
-_HOME = {name: home for home, names in _HOMES.items() for name in names}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
-__all__ = [  # noqa: PLE0604  # strings throughout: the table above
-    *_HOME,
-    *_MODULES,
-]
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> object:
     """Import a public name when it is first asked for (PEP 562)."""
-    if name in _MODULES:
+    if name not in _HOME:
+        raise AttributeError(f"module 'exo_pin' has no attribute {name!r}")
+    if _HOME[name] == "exo_pin":
         return import_module(f"exo_pin.{name}")
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module 'exo_pin' has no attribute {name!r}")
+    return getattr(import_module(_HOME[name]), name)
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__

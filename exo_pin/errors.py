@@ -29,6 +29,9 @@ __all__ = [
 ]
 
 
+_SHOWN = 14  # names in a message: all twelve joints and both feet fit
+
+
 class ExoPinError(Exception):
     """The root of every error that this package raises on purpose."""
 
@@ -49,7 +52,8 @@ class UnknownNameError(DescriptionError):
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
         close = difflib.get_close_matches(name, self.known, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(self.known)}"
+        some = ", ".join(self.known[:_SHOWN]) + (" ..." if len(self.known) > _SHOWN else "")
+        hint = f"did you mean {close[0]!r}?" if close else f"known: {some}"
         super().__init__(f"unknown {kind} {name!r}; {hint}")
 
 

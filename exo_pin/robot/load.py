@@ -106,9 +106,9 @@ def _stand(model: Any, placement: Any) -> None:
     for j in range(1, model.njoints):
         if model.parents[j] == 0:
             model.jointPlacements[j] = placement * model.jointPlacements[j]
-    for frame in model.frames[1:]:
-        if frame.parentJoint == 0:
-            frame.placement = placement * frame.placement
+    for k in range(1, model.nframes):  # by index: slices of Pinocchio's vectors are copies
+        if model.frames[k].parentJoint == 0:
+            model.frames[k].placement = placement * model.frames[k].placement
     model.inertias[0] = placement.act(model.inertias[0])
 
 

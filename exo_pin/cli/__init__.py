@@ -1,0 +1,88 @@
+"""The command line `exo-pin`: the only room that prints and exits."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from types import ModuleType
+
+from exo_pin import __version__
+from exo_pin.errors import ConvergenceError, ExoPinError, LimitError
+
+COMMANDS = {
+    "replay": "watch the exoskeleton walk in the browser, or write one offline page",
+    "check": "cross-check kinematics and inverse kinematics on a gait",
+    "info": "what a gait file holds: joints, ranges, events",
+    "fk": "forward kinematics: a gait's foot poses as CSV",
+    "ik": "inverse kinematics: joint angles from a table of foot poses",
+    "convert": "a gait from one file format to another",
+    "body": "make a body file from a person's measures",
+    "urdf": "the exoskeleton's URDF for a body",
+    "dh": "the Denavit-Hartenberg table for a body",
+}
+"""Each command lives in the module of its name: `configure(parser)` and `run(args) -> exit code`."""
+
+_EPILOG = """examples:
+  exo-pin replay                       the normal walk, live in the browser
+  exo-pin replay walk.mot --html w.html    a recording as one offline page
+  exo-pin walk.mot                     a file alone is replayed
+  exo-pin COMMAND --help               options and examples of a command
+
+exit codes: 0 done, 1 the verdict is no, 2 bad input"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Args:
+        argv: The words behind `exo-pin`; those of the process if left out.
+
+    Returns:
+        The exit code: 0 done, 1 the verdict is no, 2 bad input.
+    """
+    words = list(sys.argv[1:] if argv is None else argv)
+    if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
+        words.insert(0, "replay")
+    try:
+        args = _parser(words).parse_args(words)
+        if args.command is None:
+            _parser(words).print_help()
+            return 0
+        code: int = _module(args.command).run(args)
+    except ExoPinError as error:
+        print(f"exo-pin: {' '.join(str(error).split())}", file=sys.stderr)
+        return 1 if isinstance(error, (LimitError, ConvergenceError)) else 2
+    except BrokenPipeError:  # `exo-pin dh | head`: the reader had enough
+        sys.stderr.close()
+        return 0
+    except KeyboardInterrupt:
+        return 130
+    return code
+
+
+def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """The parser; only the command in use is imported, so that help stays quick."""
+    parser = argparse.ArgumentParser(
+        prog="exo-pin",
+        description="A person's walk becomes an exoskeleton's walk.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"exo-pin {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(
+            name,
+            help=summary,
+            description=f"{summary[0].upper()}{summary[1:]}.",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        if name in words:
+            _module(name).configure(command)
+    return parser
+
+
+def _module(name: str) -> ModuleType:
+    return import_module(f"exo_pin.cli.{name}")

@@ -1,0 +1,78 @@
+"""`exo-pin check`: every cross-check of a gait on a body, and a verdict."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import options, show
+
+if TYPE_CHECKING:
+    from exo_pin.crosscheck import Check
+
+_EXAMPLES = """examples:
+  exo-pin check                      the normal walk at free speed
+  exo-pin check walk.mot --stature 1.82
+  exo-pin check fast --json > check.json
+
+exit code 0: everything agrees; 1: something does not, or a joint leaves its limits"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    options.add_gait(parser)
+    options.add_body(parser)
+    options.add_hip_order(parser)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Check and print; 0 if all is well, else 1."""
+    from exo_pin import crosscheck
+    from exo_pin.robot import load_robot
+
+    body = options.body_from(args)
+    robot = load_robot(body, hip_order=args.hip_order)
+    gait = options.gait_from(args, body)
+    verdict = crosscheck.check(robot, gait)
+    if args.json:
+        show.as_json(verdict.facts())
+    else:
+        _print(verdict, args.gait)
+    return 0 if verdict.ok else 1
+
+
+def _print(verdict: Check, name: str) -> None:
+    facts = verdict.facts()
+    fk, ik = facts["fk_max_difference"], facts["ik"]
+    titles = {"recursion": "the paper's recursion", "dh": "modified D-H table", "yourdfpy": "yourdfpy"}
+    rows = [[f"{titles[k]} against Pinocchio", f"{v:.1e} m", _mark(v <= 1e-12)] for k, v in fk.items()]
+    rows += [
+        ["feet reached by IK, position", f"{ik['max_position_error_m']:.1e} m", _mark(verdict.ik_ok)],
+        ["feet reached by IK, rotation", f"{ik['max_rotation_error_rad']:.1e} rad", _mark(verdict.ik_ok)],
+        ["angles recovered (knee bent > 5 deg)", f"{ik['max_angle_error_deg']:.1e} deg", ""],
+        ["closed form against iteration", f"{ik['method_agreement_deg']:.1e} deg", ""],
+        ["frames converged", f"{ik['converged']} of {ik['frames']}", _mark(verdict.ik_ok)],
+    ]
+    show.table(f"Cross-checks: {name}", ["check", "largest difference", ""], rows)
+    limit_rows = [
+        [joint, f"{r['min']:.1f}", f"{r['max']:.1f}", str(r["violated_frames"] or "-")]
+        for joint, r in facts["limits"].items()
+    ]
+    show.table("Joint ranges", ["joint", "min deg", "max deg", "frames outside limits"], limit_rows)
+    print("verdict: " + ("all is well" if verdict.ok else _why(verdict)))
+
+
+def _mark(ok: bool) -> str:
+    return "ok" if ok else "NOT OK"
+
+
+def _why(verdict: Check) -> str:
+    outside = [joint for joint, (_, _, frames) in verdict.limits.items() if frames]
+    reasons = [
+        (verdict.fk_ok, "forward kinematics disagree"),
+        (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
+        (verdict.limits_ok, f"outside the limits: {', '.join(outside)}"),
+    ]
+    return "NO: " + "; ".join(text for ok, text in reasons if not ok)

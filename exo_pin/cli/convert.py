@@ -1,0 +1,32 @@
+"""`exo-pin convert`: a gait from one file format to another."""
+
+from __future__ import annotations
+
+import argparse
+
+from exo_pin.cli import options
+
+_EXAMPLES = """examples:
+  exo-pin convert walk.mot walk.csv
+  exo-pin convert walk.csv walk.mot          the knee is written positive, and the header says so
+  exo-pin convert free normal.csv            a normal walk as a file"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    options.add_gait(parser, default=None)
+    parser.add_argument(
+        "output", metavar="OUT", help="the new file; its ending (.csv .mot .sto) is the format"
+    )
+    options.add_body(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Read and write."""
+    from exo_pin.formats import save_gait
+
+    gait = options.gait_from(args, options.body_from(args))
+    save_gait(gait, args.output)
+    print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s")
+    return 0

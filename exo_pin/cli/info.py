@@ -1,0 +1,81 @@
+"""`exo-pin info`: what a gait holds: time, joint ranges, events, what lies outside the limits."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from exo_pin.cli import options, show
+
+_EXAMPLES = """examples:
+  exo-pin info walk.mot
+  exo-pin info fast --json"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    options.add_gait(parser)
+    options.add_body(parser)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print what the gait holds."""
+    facts = _facts(args)
+    if args.json:
+        show.as_json(facts)
+        return 0
+    rows = [
+        [
+            joint,
+            f"{r['min_deg']:.1f}",
+            f"{r['max_deg']:.1f}",
+            f"{r['peak_speed_deg_s']:.0f}",
+            r["outside"] or "-",
+        ]
+        for joint, r in facts["joints"].items()
+    ]
+    kind = "one cycle, repeated" if facts["periodic"] else "a recording"
+    title = f"{args.gait}: {kind}, {facts['samples']} samples in {facts['duration_s']:.3f} s"
+    columns = ["joint", "min deg", "max deg", "peak deg/s", "frames outside limits"]
+    show.table(title, columns, [[str(cell) for cell in row] for row in rows])
+    moves = "pelvis moves" if facts["pelvis_moves"] else "pelvis does not move"
+    print(f"source: {facts['source'] or 'not stated'}\n{moves}; events: {len(facts['events']) or 'none'}")
+    for event in facts["events"]:
+        print(f"  {event['time_s']:.3f} s  {event['side']} {event['kind']}  ({event['source']})")
+    if facts["events_note"]:
+        print(f"  {facts['events_note']}")
+    return 0
+
+
+def _facts(args: argparse.Namespace) -> dict[str, Any]:
+    import numpy as np
+
+    from exo_pin import crosscheck
+    from exo_pin.robot import load_robot
+
+    body = options.body_from(args)
+    gait, note = options.with_events(load_robot(body), options.gait_from(args, body))
+    ranges = crosscheck.limits(load_robot(body), gait)
+    peaks = np.degrees(np.abs(gait.dq).max(axis=0))
+    return {
+        "source": gait.source,
+        "samples": len(gait.time),
+        "duration_s": gait.duration,
+        "periodic": gait.periodic,
+        "pelvis_moves": gait.base is not None,
+        "joints": {
+            joint: {
+                "min_deg": float(np.degrees(low)),
+                "max_deg": float(np.degrees(high)),
+                "peak_speed_deg_s": float(peak),
+                "outside": outside,
+            }
+            for peak, (joint, (low, high, outside)) in zip(peaks, ranges.items(), strict=True)
+        },
+        "events": [
+            {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
+        ],
+        "events_note": note,
+    }

@@ -1,0 +1,122 @@
+"""Options that several commands share: the gait, the body, JSON."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from exo_pin.anatomy import HIP_ORDERS, Body
+from exo_pin.anatomy.body import both_sides
+from exo_pin.errors import DescriptionError, GaitError
+
+if TYPE_CHECKING:
+    from exo_pin.gait import Gait
+    from exo_pin.robot import Robot
+
+SPEEDS = ("very_slow", "slow", "free", "fast", "very_fast")
+
+
+def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -> None:
+    """GAIT: a file, or the name of one of the normative speeds."""
+    what = f"a gait file (.csv, .mot, .sto) or a normal walk: {', '.join(SPEEDS)}"
+    if default is None:
+        parser.add_argument("gait", metavar="GAIT", help=what)
+    else:
+        parser.add_argument(
+            "gait", metavar="GAIT", nargs="?", default=default, help=f"{what} (default: {default})"
+        )
+    parser.add_argument(
+        "--preset",
+        choices=("opensim-gait2392", "opensim-rajagopal"),
+        help="sign convention of an OpenSim file whose knee does not tell it",
+    )
+
+
+def gait_from(args: argparse.Namespace, body: Body) -> Gait:
+    """The gait that the arguments name; a normal walk's stride time follows the body's legs."""
+    if args.gait in SPEEDS and not Path(args.gait).exists():
+        from exo_pin.gait import normative_gait
+
+        return normative_gait(args.gait, leg_length=body.leg_length)
+    from exo_pin.formats import load_gait
+
+    return load_gait(args.gait, preset=args.preset)
+
+
+def add_body(parser: argparse.ArgumentParser) -> None:
+    """The body: a file, or a person's measures, or both (measures win)."""
+    group = parser.add_argument_group("body")
+    group.add_argument("--body", metavar="FILE", help="body file, as `exo-pin body` writes it")
+    group.add_argument("--stature", type=float, metavar="M", help="height of the person [m] (default: 1.75)")
+    group.add_argument("--mass", type=float, metavar="KG", help="mass of the person [kg] (default: 70)")
+    group.add_argument("--sex", choices=("male", "female"), help="whose segment masses (default: male)")
+    group.add_argument("--waist-width", type=float, metavar="M", help="inner width of the waist ring [m]")
+    group.add_argument("--hip-width", type=float, metavar="M", help="between the hip joint centres [m]")
+    group.add_argument("--no-wearer", action="store_true", help="the bare device: nobody's mass in it")
+    group.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="any other size, e.g. thigh=0.43 or left_thigh=0.42 (see `exo-pin body`)",
+    )
+
+
+def add_hip_order(parser: argparse.ArgumentParser) -> None:
+    """The order of the hip axes."""
+    parser.add_argument(
+        "--hip-order", choices=tuple(HIP_ORDERS), default="clinical", help="hip axes (default: clinical)"
+    )
+
+
+def body_from(args: argparse.Namespace) -> Body:
+    """The body that the arguments describe.
+
+    Raises:
+        DescriptionError: A measure is not plausible.
+    """
+    measures = {name: getattr(args, name) for name in ("stature", "mass", "sex", "waist_width", "hip_width")}
+    values: dict[str, Any] = {name: value for name, value in measures.items() if value is not None}
+    values |= dict(map(assignment, args.set))
+    if args.no_wearer:
+        values["wearer"] = False
+    if args.body is None:
+        return Body.from_stature(**values)
+    body = Body.load(args.body)
+    grown = {"stature", "mass", "sex"} & set(values)
+    if grown:
+        raise DescriptionError(
+            f"--body holds every size already; --{sorted(grown)[0]} would contradict it (change the file)"
+        )
+    return dataclasses.replace(body, **both_sides(values))
+
+
+def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
+    """`name=value` as a pair; numbers and true/false are read as such.
+
+    Raises:
+        DescriptionError: There is no sign in it.
+    """
+    name, found, value = text.partition(sign)
+    if not found or not name:
+        raise DescriptionError(f"{text!r} is not of the form name{sign}value")
+    if value in ("true", "false"):
+        return name, value == "true"
+    try:
+        return name, float(value)
+    except ValueError:
+        return name, value
+
+
+def with_events(robot: Robot, gait: Gait) -> tuple[Gait, str]:
+    """The gait with events: its own, or those of its kinematics; and a note where there are none."""
+    if gait.events:
+        return gait, ""
+    from exo_pin.kinematics import events
+
+    try:
+        return dataclasses.replace(gait, events=events(robot, gait)), ""
+    except GaitError as error:
+        return gait, f"no events from the motion either: {error}"
