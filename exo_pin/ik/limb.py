@@ -1,0 +1,130 @@
+"""Limbs: targets that share joints are solved together, each group on its own reduced model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin.ik.targets import Goal
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+Rows = npt.NDArray[np.int64]
+_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+
+
+@dataclass(frozen=True, eq=False)
+class Limb:
+    """The joints that move a group of frames, everything else of the robot held at rest.
+
+    Attributes:
+        model: Pinocchio's reduced model.
+        frames: Names of the target frames.
+        ids: Their indices in the reduced model.
+        q: Entries of the robot's q that belong to this limb.
+        lower: Lower limits of q; minus infinity for a floating base.
+        upper: Upper limits of q.
+        floats: Whether a floating base is part of it.
+    """
+
+    model: Any
+    frames: tuple[str, ...]
+    ids: tuple[int, ...]
+    q: Rows
+    lower: Array
+    upper: Array
+    floats: bool
+
+    @property
+    def middle(self) -> Array:
+        """The configuration with every limited joint at the middle of its range, the others at zero."""
+        q = np.asarray(pin.neutral(self.model))
+        bounded = np.isfinite(self.lower) & np.isfinite(self.upper)
+        q[bounded] = 0.5 * (self.lower[bounded] + self.upper[bounded])
+        return q
+
+    def box(self, q: Array) -> tuple[Array, Array]:
+        """How far a step (nv,) may go down and up from q."""
+        down, up = self.lower - q, self.upper - q
+        return (down[1:], up[1:]) if self.floats else (down, up)  # nq = nv + 1 with a quaternion
+
+    def moved(self, q: Array, step: Array) -> Array:
+        """The configuration after a step, rounding kept inside the limits."""
+        q = np.asarray(pin.integrate(self.model, q, step)) if self.floats else q + step
+        return np.minimum(np.maximum(q, self.lower), self.upper)
+
+
+def limbs(robot: Robot, frames: tuple[str, ...], *, base_moves: bool) -> list[Limb]:
+    """The independent groups of frames with the joints that move them."""
+    joints = {name: _joints_of(robot, name, base_moves=base_moves) for name in frames}
+    groups: list[tuple[list[str], set[int]]] = []
+    for name, own in joints.items():
+        names, union = [name], set(own)
+        for other in [g for g in groups if g[1] & own]:
+            groups.remove(other)
+            names, union = other[0] + names, union | other[1]
+        groups.append((names, union))
+    return [_limb(robot, tuple(names), union) for names, union in groups]
+
+
+def residual(
+    limb: Limb, data: Any, q: Array, goals: list[Goal], k: int, scale: tuple[float, float] = (1.0, 1.0)
+) -> tuple[Array, Array, Array]:
+    """Weighted error (m,) in world axes, its Jacobian (m, nv), and per frame distance and angle (2, F)."""
+    pin.computeJointJacobians(limb.model, data, q)
+    parts, slopes, errors = [], [], np.full((2, len(goals)), np.nan)
+    for f, (index, goal) in enumerate(zip(limb.ids, goals, strict=True)):
+        M = pin.updateFramePlacement(limb.model, data, index)
+        J = pin.getFrameJacobian(limb.model, data, index, _AXES)
+        R, origin = M.rotation, M.translation
+        worst = 0.0
+        for point, target, weight in zip(goal.local, goal.p[k], goal.weight[k], strict=True):
+            if weight == 0.0:
+                continue
+            arm = R @ point
+            e = target - origin - arm
+            worst = max(worst, float(np.sqrt(e @ e)))
+            parts.append(scale[0] * weight * e)
+            slopes.append(scale[0] * weight * (J[:3] if not point.any() else J[:3] - pin.skew(arm) @ J[3:]))
+        errors[0, f] = worst
+        if goal.R is not None:
+            turn = pin.log3(goal.R[k] @ R.T)
+            errors[1, f] = np.sqrt(turn @ turn)
+            parts.append(scale[1] * goal.rotation_weight * turn)
+            slopes.append(scale[1] * goal.rotation_weight * J[3:])
+    if not parts:
+        return np.zeros(1), np.zeros((1, limb.model.nv)), errors
+    return np.concatenate(parts), np.vstack(slopes), errors
+
+
+def _joints_of(robot: Robot, frame: str, *, base_moves: bool) -> set[int]:
+    model = robot.model
+    chain = {int(j) for j in model.supports[model.frames[robot.frame(frame)].parentJoint]} - {0}
+    if robot.base == "floating" and not base_moves:
+        chain.discard(1)
+    return chain
+
+
+def _limb(robot: Robot, frames: tuple[str, ...], joints: set[int]) -> Limb:
+    model = robot.model
+    locked = [j for j in range(1, model.njoints) if j not in joints]
+    reduced = pin.buildReducedModel(model, locked, robot.neutral)
+    columns = [c for j in sorted(joints) for c in range(model.idx_qs[j], model.idx_qs[j] + model.nqs[j])]
+    floats = robot.base == "floating" and 1 in joints
+    lower, upper = np.array(reduced.lowerPositionLimit), np.array(reduced.upperPositionLimit)
+    if floats:
+        lower[:7], upper[:7] = -np.inf, np.inf
+    ids = tuple(_frame(reduced, name) for name in frames)
+    return Limb(reduced, frames, ids, np.array(columns, dtype=int), lower, upper, floats)
+
+
+def _frame(model: Any, name: str) -> int:
+    for kind in (pin.FrameType.BODY, pin.FrameType.JOINT):
+        index = model.getFrameId(name, kind)
+        if index < model.nframes:
+            return int(index)
+    return int(model.getFrameId(name))  # a joint that is locked here turned into a fixed frame

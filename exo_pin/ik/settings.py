@@ -1,0 +1,52 @@
+"""Settings: one frozen object picks the solver and carries its numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from exo_pin.errors import DescriptionError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dls:
+    """Damped least squares, joint limits kept as constraints of every step.
+
+    Attributes:
+        tolerance: A frame has converged when every position error [m] and rotation error [rad] is below it.
+        max_iterations: Steps for one frame from one start.
+        restarts: Further starts for a frame that got stuck; they are used only where they reach the target,
+            so that a frame out of reach stays near its neighbour.
+        warm_start: True: each frame starts from the answer of the one before; False: each frame starts from
+            the seed, independent of its neighbours.
+        damping: Smallest damping of the normal equations: 0 for exact targets; about 1e-3 keeps the joints
+            calm when noisy feet pull a nearly straight leg.
+        position_weight: Weight of a position error [1/m] against the others.
+        rotation_weight: Weight of a rotation error [1/rad] against the others.
+    """
+
+    tolerance: float = 1e-9
+    max_iterations: int = 200
+    restarts: int = 8
+    warm_start: bool = True
+    damping: float = 0.0
+    position_weight: float = 1.0
+    rotation_weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        _positive(self, "tolerance", "max_iterations", "position_weight", "rotation_weight")
+        _not_negative(self, "restarts", "damping")
+
+
+def _positive(settings: object, *names: str) -> None:
+    for name in names:
+        value = getattr(settings, name)
+        if not (math.isfinite(value) and value > 0):
+            raise DescriptionError(f"{type(settings).__name__}.{name} is {value}; it must be positive")
+
+
+def _not_negative(settings: object, *names: str) -> None:
+    for name in names:
+        value = getattr(settings, name)
+        if not (math.isfinite(value) and value >= 0):
+            raise DescriptionError(f"{type(settings).__name__}.{name} is {value}; it must not be negative")

@@ -1,0 +1,224 @@
+"""Targets: what the frames shall reach, checked at the door, each error with its frame and sample."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.errors import DescriptionError
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+ORTHONORMAL = 1e-6
+"""Largest deviation of R.T @ R from the identity that passes as rounding; what passes is straightened."""
+_EXACT = 1e-13  # a rotation this good needs no straightening
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """A full pose as target, with weights.
+
+    Attributes:
+        T: T_world_frame (n, 4, 4), or (4, 4) for `solve`.
+        position_weight: Multiplies the position error.
+        rotation_weight: Multiplies the rotation error.
+    """
+
+    T: npt.ArrayLike
+    position_weight: float = 1.0
+    rotation_weight: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Position:
+    """The origin of a frame as target, its rotation left free.
+
+    Attributes:
+        p: Positions in the world (n, 3) [m], or (3,) for `solve`.
+        weight: Multiplies the error.
+    """
+
+    p: npt.ArrayLike
+    weight: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Points fixed on a link (markers) as target.
+
+    Attributes:
+        local: Where the points sit, in the axes of the frame (k, 3) [m].
+        p: Where they shall be in the world (n, k, 3) [m], or (k, 3) for `solve`; a marker that was not seen
+            is a row of NaN and pulls nowhere.
+        weight: Multiplies the errors, one for all or one each (k,).
+    """
+
+    local: npt.ArrayLike
+    p: npt.ArrayLike
+    weight: npt.ArrayLike = 1.0
+
+
+Target = npt.ArrayLike | Pose | Position | Points
+
+
+@dataclass(frozen=True, eq=False)
+class Goal:
+    """A checked target of one frame, in the axes of the robot at its own placement.
+
+    Attributes:
+        frame: Name of the frame.
+        local: Points on the frame (k, 3) [m]; its origin alone for poses and positions.
+        p: Where the points shall be (n, k, 3) [m].
+        R: Rotation that is asked (n, 3, 3), or None.
+        weight: Of each point (n, k); 0 where it was not seen.
+        rotation_weight: Of the rotation.
+    """
+
+    frame: str
+    local: Array
+    p: Array
+    R: Array | None
+    weight: Array
+    rotation_weight: float
+
+    @property
+    def plain(self) -> bool:
+        """Whether this is a full pose with all weights one."""
+        return self.R is not None and self.rotation_weight == 1.0 and bool((self.weight == 1.0).all())
+
+
+def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> tuple[list[Goal], int]:
+    """The targets as goals and their common number of samples.
+
+    Args:
+        robot: Whose frames they are.
+        targets: By name of the frame.
+        carry: What takes the world to the robot at its own placement: (4, 4), (n, 4, 4) or None.
+
+    Raises:
+        UnknownNameError: A frame is unknown.
+        DescriptionError: A shape does not fit, a number is not finite, a matrix is not a pose.
+    """
+    if not targets:
+        raise DescriptionError("no target was given; name at least one frame")
+    goals = []
+    for frame, target in targets.items():
+        robot.frame(frame)
+        goals.append(_goal(frame, target, carry))
+    counts = {goal.frame: len(goal.p) for goal in goals}
+    n = next(iter(counts.values()))
+    if any(count != n for count in counts.values()):
+        raise DescriptionError(f"the targets have different numbers of samples: {counts}")
+    return goals, n
+
+
+def rotation_fault(T: Array) -> npt.NDArray[np.bool_]:
+    """Which of the poses (n, 4, 4) do not have a rotation matrix and the last row 0 0 0 1."""
+    R = T[:, :3, :3]
+    skew = np.abs(R.swapaxes(1, 2) @ R - np.eye(3)).max(axis=(1, 2))
+    bottom = (T[:, 3] != (0.0, 0.0, 0.0, 1.0)).any(axis=1)
+    return np.asarray((skew > ORTHONORMAL) | (np.linalg.det(R) < 0.0) | bottom)
+
+
+def pose_array(name: str, T: npt.ArrayLike) -> Array:
+    """Poses (n, 4, 4), checked and their rotations straightened.
+
+    Raises:
+        DescriptionError: Names what the poses belong to and the first sample that is wrong.
+    """
+    T = _numbers(name, T)
+    if T.ndim != 3 or T.shape[1:] != (4, 4):
+        raise DescriptionError(f"{name}: poses have shape {T.shape}; (n, 4, 4) is accepted")
+    _finite(name, T)
+    fault = rotation_fault(T)
+    if fault.any():
+        k = int(np.argmax(fault))
+        raise DescriptionError(f"{name}, frame {k}: not a pose (a rotation matrix and last row 0 0 0 1)")
+    return straightened(T)
+
+
+def straightened(T: Array) -> Array:
+    """Nearly exact rotations made exact to rounding (Newton steps of the polar decomposition)."""
+    R = T[:, :3, :3]
+    for _ in range(2):
+        gram = R.swapaxes(1, 2) @ R
+        if not len(R) or np.abs(gram - np.eye(3)).max() < _EXACT:
+            break
+        R = R @ (1.5 * np.eye(3) - 0.5 * gram)
+    if R.base is T:
+        return T
+    T = T.copy()
+    T[:, :3, :3] = R
+    return T
+
+
+def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
+    if isinstance(target, Points):
+        return _points(frame, target, carry)
+    if isinstance(target, Position):
+        p = _numbers(frame, target.p)
+        if p.ndim != 2 or p.shape[1] != 3:
+            raise DescriptionError(f"{frame}: positions have shape {p.shape}; (n, 3) is accepted")
+        _finite(frame, p)
+        ones = np.full((len(p), 1), _weight(frame, target.weight))
+        return Goal(frame, np.zeros((1, 3)), _carried(frame, p[:, None], carry), None, ones, 0.0)
+    pose = target if isinstance(target, Pose) else Pose(target)
+    T = pose_array(frame, pose.T)
+    if carry is not None:
+        T = _fits(frame, carry, len(T)) @ T
+    ones = np.full((len(T), 1), _weight(frame, pose.position_weight))
+    turn = _weight(frame, pose.rotation_weight)
+    return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], T[:, :3, :3], ones, turn)
+
+
+def _points(frame: str, target: Points, carry: Array | None) -> Goal:
+    local, p = _numbers(frame, target.local), _numbers(frame, target.p)
+    if local.ndim != 2 or local.shape[1] != 3 or p.ndim != 3 or p.shape[1:] != local.shape:
+        raise DescriptionError(
+            f"{frame}: points have shapes {local.shape} and {p.shape}; (k, 3) and (n, k, 3) are accepted"
+        )
+    _finite(f"{frame} (local)", local)
+    seen = np.asarray(~np.isnan(p).any(axis=2))
+    _finite(frame, np.where(seen[..., None], p, 0.0))
+    weight = np.broadcast_to(_numbers(frame, target.weight), (len(local),))
+    if not (np.isfinite(weight) & (weight >= 0)).all():
+        raise DescriptionError(f"{frame}: weights must be finite and not negative, not {weight}")
+    p = _carried(frame, np.where(seen[..., None], p, 0.0), carry)
+    return Goal(frame, local, p, None, weight * seen, 0.0)
+
+
+def _numbers(name: str, values: npt.ArrayLike) -> Array:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise DescriptionError(f"{name}: the target is not an array of numbers") from None
+
+
+def _finite(name: str, values: Array) -> None:
+    finite = np.isfinite(values)
+    if finite.all():
+        return
+    k = int(np.argmin(finite.all(axis=tuple(range(1, values.ndim)))))
+    raise DescriptionError(f"{name}, frame {k}: the target holds NaN or infinity")
+
+
+def _weight(frame: str, weight: float) -> float:
+    if not (np.isfinite(weight) and weight >= 0):
+        raise DescriptionError(f"{frame}: a weight must be finite and not negative, not {weight}")
+    return float(weight)
+
+
+def _fits(frame: str, carry: Array, n: int) -> Array:
+    if carry.ndim == 3 and len(carry) != n:
+        raise DescriptionError(f"{frame}: {n} samples, but base has {len(carry)}")
+    return carry
+
+
+def _carried(frame: str, p: Array, carry: Array | None) -> Array:
+    if carry is None:
+        return p
+    T = _fits(frame, carry, len(p))
+    return np.asarray(p @ T[..., :3, :3].swapaxes(-1, -2) + T[..., None, :3, 3])
