@@ -70,7 +70,8 @@ def zeni(
             raise GaitError(f"{kind}: expected finite positions ({len(t)}, 2) [m], left and right")
         for side, y in zip(SIDES, curve.T, strict=True):
             events += [Event(x, kind, side, SOURCE) for x in _turns(t, y, side, periodic, smallest_excursion)]
-    if np.corrcoef(curves["heel_strike"].T)[0, 1] > TOGETHER:
+    left, right = (curves["heel_strike"] - curves["heel_strike"].mean(axis=0)).T
+    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
         raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
     events.sort(key=lambda event: event.time)
     _check_walk(events, periodic)
