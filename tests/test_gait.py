@@ -140,6 +140,10 @@ def test_a_gait_cannot_be_changed_from_outside():
             array[0] = 1
 
 
+def test_a_gait_prints_as_one_line(cycle):
+    assert repr(cycle) == "<Gait 40 samples, 1.200 s, periodic, a base, 4 events, source='test'>"
+
+
 def test_duration_of_a_cycle_includes_the_step_back_to_its_start(cycle, recording):
     assert cycle.duration == pytest.approx(PERIOD, abs=ROUNDING)
     assert recording.duration == recording.time[-1] - recording.time[0]

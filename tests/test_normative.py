@@ -10,9 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exo_pin.anatomy import JOINTS, MOVEMENTS, Body
+from exo_pin.anatomy import CORNERS, JOINTS, MOVEMENTS, Body
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS, normative_gait, schwartz2008
+from exo_pin.kinematics import poses
+from exo_pin.robot import load_robot
 
 ROUNDING = 1e-12  # [rad, s]
 SPECTRAL = 1e-9  # [rad/s^2]
@@ -138,6 +140,16 @@ def test_events_tell_a_stance_of_the_sources_length(speed):
         off, abs=0.02
     )  # opposite events are rounded to a percent
     assert (gait.stance("left") | gait.stance("right")).all()  # walking: a foot is always on the ground
+
+
+def test_the_feet_of_this_file_are_the_feet_of_the_package():
+    gait, body = normative_gait("fast"), Body.from_stature(1.6)
+    robot = load_robot(body)
+    corners = [corner for corner in CORNERS if corner.startswith("left")]
+    T = poses(robot, robot.from_gait(gait), corners, base=gait.base)
+    order = np.lexsort(T[0, :, :3, 3].T)  # the same corners, whatever their order
+    _, mine = foot(gait, "left", body)
+    np.testing.assert_allclose(T[:, order][..., :3, 3], mine[:, np.lexsort(mine[0].T)], atol=ROUNDING)
 
 
 def test_the_stance_sole_is_flat_in_mid_stance():

@@ -79,9 +79,7 @@ class Poses:
         for name, T in (("base", self.base), *self.targets.items()):
             if T is not None:
                 check_poses(T, n, name)
-        span = float(self.time[-1] - self.time[0])
-        duration = span * n / (n - 1) if self.periodic else span
-        check_events(self.events, float(self.time[0]), duration, self.periodic)
+        check_events(self.events, self.time, self.periodic)
 
 
 def load_poses(path: str | Path) -> Poses:

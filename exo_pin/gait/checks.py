@@ -41,6 +41,13 @@ def frozen(values: ArrayLike, name: str) -> Array:
         raise GaitError(f"{name} is not an array of numbers: {error}") from error
 
 
+def duration(time: Array, periodic: bool) -> float:
+    """Last minus first sample, and where the walk repeats also the step back to its start [s]."""
+    n = len(time)
+    span = float(time[-1] - time[0])
+    return span * n / (n - 1) if periodic else span
+
+
 def check_time(time: Array, periodic: bool) -> None:
     """Raises `GaitError` unless `time` is `(n,)`, n >= 2, finite and increasing; even from 0 if periodic."""
     if time.ndim != 1 or len(time) < 2:
@@ -97,9 +104,10 @@ def check_poses(T: Array, n: int, name: str) -> None:
         )
 
 
-def check_events(events: Sequence[Event], start: float, duration: float, periodic: bool) -> None:
+def check_events(events: Sequence[Event], time: Array, periodic: bool) -> None:
     """Raises `GaitError` for an event outside the walk: [start, end), or [start, end] if not periodic."""
-    end = start + duration
+    start = float(time[0])
+    end = start + duration(time, periodic)
     for event in events:
         inside = start <= event.time < end if periodic else start <= event.time <= end
         if not inside:

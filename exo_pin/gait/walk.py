@@ -12,13 +12,21 @@ from numpy.typing import ArrayLike, NDArray
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import curves, rigid
-from exo_pin.gait.checks import check_angles, check_events, check_poses, check_time, frozen, read_only
+from exo_pin.gait.checks import (
+    check_angles,
+    check_events,
+    check_poses,
+    check_time,
+    duration,
+    frozen,
+    read_only,
+)
 from exo_pin.gait.event import Event, stance
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class Gait:
     """Joint angles over time, in the order of `JOINTS` and the clinical hip convention.
 
@@ -65,7 +73,13 @@ class Gait:
         if self.base is not None:
             check_poses(self.base, len(self.time), "base")
         put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
-        check_events(self.events, float(self.time[0]), self.duration, self.periodic)
+        check_events(self.events, self.time, self.periodic)
+
+    def __repr__(self) -> str:
+        base = "a base" if self.base is not None else "no base"
+        kind = "periodic" if self.periodic else "not periodic"
+        size = f"{len(self)} samples, {self.duration:.3f} s, {kind}, {base}, {len(self.events)} events"
+        return f"<Gait {size}, source={self.source!r}>"
 
     def __len__(self) -> int:
         """Number of samples n."""
@@ -74,9 +88,7 @@ class Gait:
     @property
     def duration(self) -> float:
         """Length in time [s]: the period T of a periodic gait, else last minus first sample."""
-        n = len(self)
-        span = float(self.time[-1] - self.time[0])
-        return span * n / (n - 1) if self.periodic else span
+        return duration(self.time, self.periodic)
 
     @cached_property
     def dq(self) -> Array:
