@@ -194,10 +194,23 @@ def test_a_preset_of_opensim_signs_is_refused_for_our_own_format(saved):
         load_gait(saved[0], preset="opensim-gait2392")
 
 
-def test_files_beyond_the_cap_are_refused(saved, monkeypatch):
+def test_files_beyond_the_cap_are_neither_read_nor_written(walk, saved, monkeypatch):
+    before = saved[0].read_bytes()
     monkeypatch.setattr(files, "LARGEST_FILE", 1000)
     with pytest.raises(FormatError, match="larger than"):
         load_gait(saved[0])
+    with pytest.raises(FormatError, match="larger than"):
+        save_gait(walk, saved[0])
+    assert saved[0].read_bytes() == before
+
+
+def test_absurd_numbers_of_columns_and_events_are_refused_at_once(saved):
+    path, lines, header = saved
+    many = 200_000  # what costs the square of this would take an hour
+    refused(
+        path, [lines[header] + ",time_s" * many, lines[-1] + ",0" * many], "'time_s' occurs more than once", 1
+    )
+    refused(path, ["# event: 0 toe_off left"] * many + lines, "events; at most 100000", 100_001)
 
 
 def test_a_failed_write_leaves_the_old_file_and_no_other(walk, saved, monkeypatch):

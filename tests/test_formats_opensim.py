@@ -137,6 +137,14 @@ def test_a_truncated_file_is_refused_and_a_huge_claim_costs_nothing(path):
     refused(path, "Coordinates\nendheader\n\n", "no column names", 2)
 
 
+def test_a_hundred_thousand_columns_are_no_hindrance(path):
+    many = 100_000  # what costs the square of this would take an hour
+    header = "\t".join(["time", *NAMES, *(f"x{i}" for i in range(many))])
+    rows = ("\t".join([*map(str, row), "0\t" * many]) for row in degrees())
+    path.write_text("\n".join(["Coordinates", "inDegrees=yes", "endheader", header, *rows]))
+    assert load_gait(path).q.shape == (5, 12)
+
+
 def test_missing_coordinates_are_named(path):
     names = ["x" if name == "subtalar_angle_l" else name for name in NAMES]
     refused(path, storage(degrees(), names), "missing coordinates: subtalar_angle_l", 5)

@@ -56,6 +56,8 @@ def write_text(path: str | Path, text: str) -> None:
     try:
         target = Path(os.path.realpath(shown))
         data = text.encode("utf-8")
+        if len(data) > LARGEST_FILE:  # nobody could load it again
+            raise ValueError(f"larger than {LARGEST_FILE // 2**20} MiB; resample or split the recording")
         if target.exists() and not target.is_file() and not target.is_dir():
             target.write_bytes(data)
         else:

@@ -15,6 +15,9 @@ from exo_pin.gait import Event, Gait
 
 Array = NDArray[np.float64]
 
+MOST_EVENTS = 100_000
+"""A day's walk: bounds memory."""
+
 
 class Note(NamedTuple):
     """One comment line."""
@@ -61,7 +64,12 @@ def read(path: Path, notes: Sequence[Note]) -> Notes:
     Raises:
         FormatError: If one of these lines is malformed.
     """
-    events = tuple(_event(path, note) for note in notes if note.key == "event")
+    said = [note for note in notes if note.key == "event"]
+    if len(said) > MOST_EVENTS:
+        raise FormatError(
+            path, f"{len(said)} events; at most {MOST_EVENTS} are read", line=said[MOST_EVENTS].line
+        )
+    events = tuple(_event(path, note) for note in said)
     periodic = [_truth(path, note) for note in notes if note.key == "periodic"]
     source = [_text(path, note, note.value) for note in notes if note.key == "source"]
     return Notes(events, any(periodic), "; ".join(source) if source else None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -92,17 +93,16 @@ def _coordinates(storage: Storage) -> Table:
             path, f"titled {storage.title[:40]!r}; expected coordinates, not their derivatives", line=1
         )
     names = tuple(_plain(name) for name in table.names)
-    twice = sorted(
-        {name for name in names if names.count(name) > 1 and name in (TIME, *LEGS, *ANGLES, *TRANSLATIONS)}
-    )
+    times = Counter(names)
+    twice = [name for name in (TIME, *LEGS, *ANGLES, *TRANSLATIONS) if times[name] > 1]
     if twice:
         raise FormatError(path, f"coordinate {twice[0]!r} occurs more than once", line=line)
-    gone = [name for name in (TIME, *LEGS) if name not in names]
+    gone = [name for name in (TIME, *LEGS) if name not in times]
     if gone and any(re.search(r"force|moment|torque", name, re.IGNORECASE) for name in names):
         raise FormatError(
             path, "holds forces or moments; expected joint coordinates (inverse kinematics)", line=line
         )
-    pelvis = [name for name in (*ANGLES, *TRANSLATIONS) if name not in names]
+    pelvis = [name for name in (*ANGLES, *TRANSLATIONS) if name not in times]
     if gone or 0 < len(pelvis) < 6:
         raise FormatError(path, f"missing coordinates: {', '.join(gone or pelvis)}", line=line)
     return Table(path, names, table.values, table.lines)

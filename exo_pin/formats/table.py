@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -77,9 +78,9 @@ def parse(
     Raises:
         FormatError: For duplicate names, no rows, ragged rows, cells that are no number, NaN and infinity.
     """
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        raise FormatError(path, f"column {twice[0]!r} occurs more than once", line=first - 1)
+    name, times = Counter(names).most_common(1)[0]
+    if times > 1:
+        raise FormatError(path, f"column {name[:80]!r} occurs more than once", line=first - 1)
     rows = [(number, line) for number, line in enumerate(lines, first) if line.strip()]
     if not rows:
         raise FormatError(path, "no rows of data below the header")
