@@ -62,8 +62,8 @@ def test_the_knee_is_positive_whatever_the_file_has_and_the_source_says_how(path
     path.write_text(storage(degrees(knee=+1)))
     positive = load_gait(path)
     np.testing.assert_array_equal(negative.q, positive.q)
-    assert "negative in the file (inferred, 100 %" in negative.source
-    assert "positive in the file (inferred, 100 %" in positive.source
+    assert "knee negative in flexion (inferred: 100 %" in negative.source
+    assert "knee positive in flexion (inferred: 100 %" in positive.source
     assert "opensim-gait2392" in negative.source
 
 

@@ -64,7 +64,7 @@ def read_gait(path: Path, name: str | None = None) -> Gait:
     q[:, [LEGS.index(knee) for knee in KNEES]] *= chosen.knee
     if notes.source is None:
         sign = "positive" if chosen.knee > 0 else "negative"
-        notes = notes._replace(source=f"{path.name}; knee flexion {sign} in the file ({how}: {chosen.name})")
+        notes = notes._replace(source=f"{path.name}, read as {chosen.name}: knee {sign} in flexion ({how})")
     return to_gait(path, time, q, _base(table, degrees, chosen), notes)
 
 
@@ -136,7 +136,7 @@ def _sign(storage: Storage, table: Table, degrees: bool) -> tuple[Preset, str]:
             "the sign of the knee is not clear: knee_angle_l and _r bend less than 15 degrees or lie on both "
             f"sides of 0; name the model with a preset: {', '.join(PRESETS)}",
         )
-    return found[0], f"inferred, {100 * found[1]:.0f} % of the excursion is there"
+    return found[0], f"inferred: {100 * found[1]:.0f} % of its excursion"
 
 
 def _base(table: Table, degrees: bool, chosen: Preset) -> Array | None:
