@@ -1,8 +1,8 @@
 """The viewer: a walk in the browser, live or as one offline page.
 
 `scene(robot, gait)` makes the picture as a value, `html(scene)` a self-contained page of it, and
-`serve(scene)` shows the same page from a server on this machine. Imports happen when a name is first used,
-so a server can start before Pinocchio is loaded.
+`serve(scene)` shows the same page from a server on this machine; `view(robot, gait)` is for notebooks.
+Imports happen when a name is first used, so a server can start before Pinocchio is loaded.
 """
 
 from __future__ import annotations
@@ -14,16 +14,19 @@ if TYPE_CHECKING:
     from exo_pin.viewer.compiler import scene
     from exo_pin.viewer.export import html
     from exo_pin.viewer.facts import Scene
+    from exo_pin.viewer.notebook import View, view
     from exo_pin.viewer.server import Server, serve
 
-__all__ = ["Scene", "Server", "html", "scene", "serve"]
+__all__ = ["Scene", "Server", "View", "html", "scene", "serve", "view"]
 
 _HOMES = {
     "Scene": "facts",
     "Server": "server",
+    "View": "notebook",
     "html": "export",
     "scene": "compiler",
     "serve": "server",
+    "view": "notebook",
 }
 
 

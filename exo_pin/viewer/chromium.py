@@ -69,8 +69,8 @@ class Chromium:
         command = find()
         if command is None:
             raise ExoPinError(
-                f"no Chromium found (looked for {', '.join(NAMES)}); install it, e.g. `apt install chromium`, "
-                "or name it in EXO_PIN_CHROMIUM"
+                f"no Chromium found (looked for {', '.join(NAMES)}); install it, e.g. "
+                "`apt install chromium`, or name it in EXO_PIN_CHROMIUM"
             )
         self.timeout = timeout
         self.console: list[str] = []
@@ -131,7 +131,10 @@ class Chromium:
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
             raise ExoPinError(details.get("exception", {}).get("description", details["text"]))
-        return answer["result"].get("value")
+        result = answer["result"]
+        if "unserializableValue" in result:  # NaN, Infinity, -0: JSON has none of them
+            return float(result["unserializableValue"])
+        return result.get("value")
 
     def screenshot(self) -> bytes:
         """The page as PNG."""
@@ -162,7 +165,8 @@ class Chromium:
 
     def call(self, method: str, **params: Any) -> dict[str, Any]:
         """Call one DevTools method and wait for its answer."""
-        return self._run(self._ask(method, params))
+        answer: dict[str, Any] = self._run(self._ask(method, params))
+        return answer
 
     def close(self) -> None:
         """End the browser and remove what it wrote."""
@@ -236,7 +240,9 @@ class Chromium:
 
 def _note_console(browser: Chromium, params: dict[str, Any]) -> None:
     if params["type"] in ("error", "warning", "assert"):
-        browser.console.append(" ".join(str(arg.get("value", arg.get("description"))) for arg in params["args"]))
+        browser.console.append(
+            " ".join(str(arg.get("value", arg.get("description"))) for arg in params["args"])
+        )
 
 
 def _note_exception(browser: Chromium, params: dict[str, Any]) -> None:

@@ -153,13 +153,13 @@ def _groups(marks: Marks) -> tuple[Group, ...]:
 
 def _boxes(shown: Motion) -> dict[str, Box]:
     """What the cameras frame: the whole figure, and the feet."""
-    x, y, z = shown.base[0, :3, 3].tolist()
+    y, z = shown.base[0, 1:3, 3].tolist()
     here = shown.corners[: len(shown.corners) if not shown.overground else 1, :, 0]
-    low, high = float(here.min()) - 0.1, float(here.max()) + 0.2
+    low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
     bottom, top = (0.0 if shown.overground else -furniture.DECK), z + _TOP
     middle = (low + high) / 2
     return {
-        "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.9, top - bottom)),
+        "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),
         "feet": Box((middle, y, 0.12), (high - low, 0.6, 0.4)),
     }
 
@@ -173,6 +173,6 @@ def _samples(robot: Robot, shown: Motion, exo: Linkage) -> dict[str, Array]:
 
 def _narrow(name: str, rows: Array) -> NDArray[np.floating[Any]]:
     """Times stay float64: a long recording counts milliseconds behind thousands of seconds."""
-    data = rows.astype(np.float64 if name.endswith("time") else np.float32)
+    data: NDArray[np.floating[Any]] = rows.astype(np.float64 if name.endswith("time") else np.float32)
     data.flags.writeable = False
     return data

@@ -46,7 +46,7 @@ def groups(robot: Robot, *, reference: bool) -> tuple[PlotGroup, ...]:
 
 
 def arrays(gait: Gait, reference: Gait | None) -> dict[str, Array]:
-    """The curves by name, each `(n, 12)` in the order of `JOINTS` [rad, rad/s], and the reference's own time."""
+    """The curves by name, `(n, 12)` in the order of `JOINTS` [rad, rad/s], and the reference's own time."""
     curves = {"angles": gait.q, "speeds": gait.dq}
     if reference is not None:
         time = reference.time - reference.time[0]

@@ -92,7 +92,7 @@ class Belt:
 
 @dataclass(frozen=True)
 class Marks:
-    """Nodes that the page moves: centre of mass, its place on the ground (at `height`), contact soles, belt."""
+    """Nodes that the page moves: centre of mass, its projection (at `height`), contact soles, belt."""
 
     com: str
     ground: str

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,13 @@ LEFT, RIGHT = (0.82, 0.24, 0.29), (0.16, 0.46, 0.78)
 SIDE_COLORS = {"left": LEFT, "right": RIGHT}
 """Red left, blue right, in the scene and in the plots alike."""
 
-PLAIN_LIGHTS = {"AmbientLight": 0.62, "PointLightNegativeX": 0.34, "PointLightPositiveX": 0.26, "FillLight": 0.10}
+PLAIN_LIGHTS = {
+    "AmbientLight": 0.50,
+    "PointLightNegativeX": 0.26,
+    "PointLightPositiveX": 0.24,
+    "FillLight": 0.10,
+    "SpotLight": 0.22,
+}
 """Intensities where software renders without environment and shadow."""
 
 _STUDIO = {"AmbientLight": 0.12, "PointLightNegativeX": 0.06, "PointLightPositiveX": 0.06, "FillLight": 0.05}
@@ -69,15 +76,15 @@ def studio() -> list[Command]:
     """Background, dimmed default lights, one spot light with shadow; meshcat's grid and axes are hidden."""
     spot = "/Lights/SpotLight/<object>"
     return [
-        setting("/Background", "top_color", [0.93, 0.95, 0.97]),
-        setting("/Background", "bottom_color", [0.72, 0.76, 0.80]),
+        setting("/Background", "top_color", [0.925, 0.945, 0.965]),
+        setting("/Background", "bottom_color", [0.885, 0.91, 0.935]),
         setting("/Grid", "visible", False),
         setting("/Axes", "visible", False),
         *(setting(f"/Lights/{name}/<object>", "intensity", value) for name, value in _STUDIO.items()),
         setting("/Lights/SpotLight", "visible", True),
         setting(spot, "castShadow", True),
         setting(spot, "position", [1.6, 2.2, 4.2]),
-        setting(spot, "intensity", 0.42),
+        setting(spot, "intensity", 0.36),
         setting(spot, "penumbra", 1.0),
         setting(spot, "angle", 0.75),
     ]
@@ -85,16 +92,22 @@ def studio() -> list[Command]:
 
 def floor(path: str, height: float, reach: float) -> list[Command]:
     """A matt floor with a thin half-metre grid, its surface at a height [m], `reach` metres each way."""
-    half = max(round(reach), 6)
-    steps = np.arange(-half, half + 0.25, 0.5)
-    ends = [[(k, -half, 0), (k, half, 0), (-half, k, 0), (half, k, 0)] for k in steps]
-    matt = Material((0.667, 0.702, 0.737, 1.0), 1.0, 0.0, more=(("envMapIntensity", 0.55),))
+    half = 2 * math.ceil(max(reach, 9) / 2)  # beyond the fog: the floor has no visible edge
+    matt = Material((0.667, 0.702, 0.737, 1.0), 1.0, 0.0, glow=0.34, more=(("envMapIntensity", 0.5),))
     return [
-        draw(f"{path}/plane", box((2 * half + 4, 2 * half + 4, 0.02)), matt),
+        draw(f"{path}/plane", box((2 * half, 2 * half, 0.02)), matt),
         place(f"{path}/plane", translation(0, 0, height - 0.011)),
-        lines(f"{path}/grid", np.reshape(ends, (-1, 3)), (0.467, 0.506, 0.545), 0.55),
+        lines(f"{path}/grid", _grid(half - 4), (0.30, 0.34, 0.39), 0.32),
         place(f"{path}/grid", translation(0, 0, height + 0.001)),
     ]
+
+
+def _grid(half: int) -> Array:
+    """Ends of the grid's lines, in pieces of 2 m: some renderers drop lines that reach behind the camera."""
+    along, across = np.meshgrid(np.arange(-half, half, 2), np.arange(-half, half + 0.25, 0.5))
+    start = np.stack([along, across, 0 * across], axis=-1).reshape(-1, 1, 3)
+    pieces = np.concatenate([start, start + np.array([2.0, 0.0, 0.0])], axis=1)
+    return np.concatenate([pieces, pieces[..., [1, 0, 2]]]).reshape(-1, 3)
 
 
 def treadmill(path: str, it: Treadmill) -> list[Command]:
@@ -104,12 +117,12 @@ def treadmill(path: str, it: Treadmill) -> list[Command]:
     signal = Material((0.95, 0.55, 0.12, 1.0), 0.5, 0.0)
     long = it.length + 0.2
     parts = [
-        ("belt", (it.length, 0.62, 0.03), (0, 0, -0.0151), dark),
-        ("hood", (0.34, 0.85, 0.15), (it.length / 2 + 0.17, 0, -0.042), metal),
+        ("belt", (it.length, 0.62, 0.03), (0.0, 0.0, -0.0151), dark),
+        ("hood", (0.34, 0.85, 0.15), (it.length / 2 + 0.17, 0.0, -0.042), metal),
     ]
     for name, s in (("left", 1), ("right", -1)):
-        parts.append((f"rail_{name}", (long, 0.11, DECK), (0, 0.365 * s, -DECK / 2 + 0.002), metal))
-        parts.append((f"strip_{name}", (long, 0.008, 0.022), (0, 0.4212 * s, -0.05), signal))
+        parts.append((f"rail_{name}", (long, 0.11, DECK), (0.0, 0.365 * s, -DECK / 2 + 0.002), metal))
+        parts.append((f"strip_{name}", (long, 0.008, 0.022), (0.0, 0.4212 * s, -0.05), signal))
     commands = [place(path, translation(it.center, 0, it.height))]
     for name, size, at, look in parts:
         commands += [draw(f"{path}/{name}", box(size), look), place(f"{path}/{name}", translation(*at))]
@@ -157,7 +170,7 @@ def tube(points: Array, radius: float, *, closed: bool) -> tuple[Array, NDArray[
     i = np.arange(n if closed else n - 1)[:, None]
     near, far = i * _RING, (i + 1) % n * _RING
     quads = np.stack([near + k, far + k, far + (k + 1) % _RING, near + (k + 1) % _RING], axis=-1)
-    faces = quads.reshape(-1, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    faces = quads.reshape(-1, 4)[:, [0, 2, 1, 0, 3, 2]].reshape(-1, 3)
     return (points[:, None] + radius * normals).reshape(-1, 3), faces, normals.reshape(-1, 3)
 
 

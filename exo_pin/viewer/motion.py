@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,6 +95,6 @@ def at_rest(robot: Robot, q: Array) -> Array:
     return q
 
 
-def _moved(T: Array, points: Array) -> Array:
+def _moved(T: NDArray[np.floating[Any]], points: Array) -> Array:
     out: Array = (T[..., :3, :3] @ points[..., None])[..., 0] + T[..., :3, 3]
     return out

@@ -44,8 +44,8 @@ def page(title: str, bundle: bytes = b"", *, connect: str = "'none'") -> str:
         connect: Where scripts may connect to (Content-Security-Policy `connect-src`).
 
     Returns:
-        HTML that loads nothing else: style, scripts and meshcat's viewer are in it, and its own policy forbids
-        every request except to `connect`.
+        HTML that loads nothing else: style, scripts and meshcat's viewer are in it, and its own policy
+        forbids every request except to `connect`.
     """
     parts = {
         "title": markup.escape(title),
@@ -69,7 +69,7 @@ def policy(connect: str = "'none'") -> str:
 
 @cache
 def engine() -> str:
-    """meshcat's viewer from the installed package, compressed, as base64."""
+    """The viewer of meshcat, from the installed package, compressed, as base64."""
     source = (_meshcat() / "dist" / "main.min.js").read_bytes()
     return base64.b64encode(gzip.compress(source, compresslevel=9, mtime=0)).decode()
 
@@ -81,8 +81,10 @@ def licences() -> str:
     texts = ["meshcat", (folder / "LICENSE").read_text("utf-8")]
     texts.append((folder / "dist" / "main.min.js.LICENSE.txt").read_text("utf-8"))
     listing = folder / "dist" / "main.min.js.THIRD_PARTY_LICENSES.json"
-    for entry in json.loads(listing.read_text("utf-8")):
-        texts.append(f"{entry['name']} {entry['version']} ({entry['license']})\n{entry['licenseText']}")
+    texts.extend(
+        f"{entry['name']} {entry['version']} ({entry['license']})\n{entry['licenseText']}"
+        for entry in json.loads(listing.read_text("utf-8"))
+    )
     return "\n\n".join(text.strip() for text in texts)
 
 

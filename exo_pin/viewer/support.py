@@ -47,8 +47,8 @@ def carried(gait: Gait, base: Array, corners: Array, stance: Intervals) -> Suppo
     shown[:, 2, 3] += shift
     origin = "the gait's own" if gait.base is not None else "held still"
     note = (
-        f"The pelvis's motion is {origin}, shifted vertically by {1000 * shift:+.1f} mm as a whole so that the "
-        "lowest standing sole corner is on the ground."
+        f"The pelvis's motion is {origin}, shifted vertically by {1000 * shift:+.1f} mm as a whole so that "
+        "the lowest standing sole corner is on the ground."
     )
     return Support(shown, _belt_speed(gait, corners, standing), note)
 

@@ -13,7 +13,7 @@ class Clock {
   play(on = true) {
     if (on && !this.loop && this.time >= this.duration) this.time = 0;
     this.playing = on;
-    this.last = null;
+    this.last = performance.now();
   }
 
   seek(time) {
@@ -22,7 +22,7 @@ class Clock {
 
   /** Advances by the wall clock; a tab that slept does not jump. */
   tick(now) {
-    const elapsed = this.last === null ? 0 : Math.min((now - this.last) / 1000, 0.25);
+    const elapsed = this.last === null ? 0 : Math.min(Math.max(now - this.last, 0) / 1000, 1);
     this.last = now;
     if (!this.playing || this.duration <= 0) return;
     const next = this.time + elapsed * this.speed;

@@ -1,6 +1,6 @@
 /* Plot: one joint's curves, left and right. The curves are painted once per size; per frame only the cursor is. */
 
-const MARGIN = { left: 38, right: 10, top: 22, bottom: 20 };
+const MARGIN = { left: 38, right: 10, top: 22, bottom: 14 };
 const FONT = "11px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 
 function palette() {
@@ -97,7 +97,7 @@ class Plot {
     pen.lineWidth = 1;
     pen.textAlign = "right";
     const room = (this.y.from - MARGIN.top) / 26;
-    for (const value of this.y.ticks(Math.max(2, Math.min(room, 5)))) {
+    for (const value of this.y.ticks(Math.max(3, Math.min(room, 5)))) {
       const y = Math.round(this.y.of(value)) + 0.5;
       pen.globalAlpha = value === 0 ? 1 : 0.6;
       pen.beginPath();

@@ -29,7 +29,7 @@ class Stage {
     renderer.shadowMap.enabled = this.quality === "high";
     renderer.shadowMap.type = MeshCat.THREE.PCFSoftShadowMap;
     if (this.quality === "high") this.viewer.scene.environment = studioEnvironment(renderer);
-    this.viewer.scene.fog = new MeshCat.THREE.Fog(0xdde3e9, 4, 9.5);
+    this.viewer.scene.fog = new MeshCat.THREE.Fog(0xe8edf2, 4, 8.8);
   }
 
   /** Draws a bundle's commands, in order, in place of what was there. */

@@ -1,0 +1,52 @@
+"""One headless browser for all tests of the viewer; without a browser they are skipped."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from exo_pin import viewer
+from exo_pin.gait import normative_gait
+from exo_pin.robot import load_robot
+from exo_pin.viewer import chromium
+
+
+@pytest.fixture(scope="session")
+def browser():
+    if chromium.find() is None:
+        pytest.skip("needs Chromium (e.g. `apt install chromium`), or its path in EXO_PIN_CHROMIUM")
+    with chromium.Chromium((1000, 680)) as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def robot():
+    return load_robot()
+
+
+@pytest.fixture(scope="session")
+def gait():
+    return normative_gait()
+
+
+@pytest.fixture(scope="session")
+def scene(robot, gait):
+    weaker = replace(gait, q=0.8 * gait.q)
+    return viewer.scene(robot, gait, reference=weaker, reference_title="four fifths")
+
+
+@pytest.fixture(scope="session")
+def file(scene, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "walk.html"
+    path.write_text(viewer.html(scene), "utf-8")
+    return path.as_uri()
+
+
+@pytest.fixture
+def page(browser, file):
+    """The offline page, freshly loaded and standing still at its first frame."""
+    browser.resize(1000, 680)
+    browser.open(file)
+    browser.evaluate("exo.seek(0)")
+    return browser

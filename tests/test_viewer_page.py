@@ -1,0 +1,102 @@
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+import struct
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exo_pin import viewer
+from exo_pin.gait import normative_gait
+from exo_pin.robot import load_robot
+from exo_pin.viewer import page
+from exo_pin.viewer.bundle import bundle
+
+HOSTILE = """</title><script>alert("1")</script>&'{{engine}}"""
+LARGEST = 1_500_000  # bytes of an offline page without wearer
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return viewer.scene(load_robot(), normative_gait())
+
+
+def chunks(packed):
+    data, at, out = gzip.decompress(packed), 0, []
+    while at < len(data):
+        (size,) = struct.unpack_from("<I", data, at)
+        out.append(data[at + 4 : at + 4 + size])
+        at += 4 + size
+    return out
+
+
+def test_a_bundle_gives_back_header_commands_and_arrays(scene):
+    header, *rest = chunks(bundle(scene))
+    facts = json.loads(header)
+    assert facts["title"] == scene.title
+    assert facts["commands"] == len(scene.commands)
+    arrays = dict(zip([spec["name"] for spec in facts["arrays"]], rest[facts["commands"] :], strict=True))
+    q = np.frombuffer(arrays["q"], "<f4").reshape(-1, 12)
+    assert np.array_equal(q, scene.arrays["q"])
+
+
+def test_the_same_scene_is_the_same_page_to_the_byte():
+    texts = {viewer.html(viewer.scene(load_robot(), normative_gait())) for _ in range(2)}
+    assert len(texts) == 1
+
+
+def test_two_different_scenes_have_different_names(scene):
+    other = replace(scene, facts=replace(scene.facts, title="other"))
+    ids = {json.loads(chunks(bundle(each))[0])["id"] for each in (scene, other)}
+    assert len(ids) == 2
+
+
+def test_the_offline_page_is_small(scene):
+    assert len(viewer.html(scene).encode()) < LARGEST
+
+
+def test_hostile_names_are_text(scene):
+    text = viewer.html(replace(scene, facts=replace(scene.facts, title=HOSTILE)))
+    assert "alert" not in text.replace("&lt;script&gt;alert", "")
+    assert text.count("<script") == viewer.html(scene).count("<script")
+
+
+def test_placeholders_are_filled_in_one_pass():
+    text = page.page("{{script}} {{engine}}")
+    assert text.count("{{script}} {{engine}}") == 2  # title and heading: not filled again
+    assert not re.search(r"\{\{(style|policy|bundle|licences)\}\}", text)
+
+
+def test_the_policy_forbids_everything_from_elsewhere(scene):
+    text = viewer.html(scene)
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
+    assert "default-src &#x27;none&#x27;" in policy
+    assert "connect-src &#x27;none&#x27;" in policy
+    assert "unsafe-eval" not in policy
+
+
+def test_the_page_names_nothing_to_load(scene):
+    text = viewer.html(scene)
+    shell = re.sub(r"(?s)<pre>.*?</pre>", "", text)  # licences hold addresses as text
+    assert not re.search(
+        r"""(?:src|href)\s*=\s*["']?(?!data:)[\w/.]""", re.sub(r"(?s)<script.*?</script>", "", shell)
+    )
+
+
+def test_the_engine_is_meshcats_own_and_its_licences_travel_with_it(scene):
+    source = gzip.decompress(base64.b64decode(page.engine()))
+    assert b"MeshCat" in source
+    text = viewer.html(scene)
+    for name in ("Robin Deits", "Three.js Authors", "dat.gui"):
+        assert name in text
+
+
+def test_every_script_in_the_folder_is_used():
+    from importlib import resources
+
+    folder = resources.files("exo_pin.viewer") / "page"
+    assert {file.name for file in folder.iterdir() if file.name.endswith(".js")} == set(page.SCRIPTS)
