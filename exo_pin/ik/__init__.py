@@ -1,8 +1,20 @@
 """Inverse kinematics: joint angles from the poses of the feet (or any frames, positions, markers)."""
 
 from exo_pin.ik.result import Solution, Track
-from exo_pin.ik.settings import Dls
+from exo_pin.ik.settings import Auto, ClosedForm, Dls
 from exo_pin.ik.targets import Points, Pose, Position
 from exo_pin.ik.tracking import SOLVERS, solve, track
 
-__all__ = ["SOLVERS", "Dls", "Points", "Pose", "Position", "Solution", "Track", "solve", "track"]
+__all__ = [
+    "SOLVERS",
+    "Auto",
+    "ClosedForm",
+    "Dls",
+    "Points",
+    "Pose",
+    "Position",
+    "Solution",
+    "Track",
+    "solve",
+    "track",
+]

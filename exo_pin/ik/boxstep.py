@@ -36,7 +36,7 @@ def box_step(A: Array, g: Array, lower: Array, upper: Array) -> Array:
             held |= free & (((x <= lower) & (wish < x)) | ((x >= upper) & (wish > x)))
             continue
         pull = g - A @ x
-        wrong = held & np.where(x >= upper, pull < 0.0, pull > 0.0)
+        wrong = held & np.where(x >= upper, pull < 0.0, pull > 0.0) & (upper > lower)
         if not wrong.any():
             return x
         held[np.argmax(np.where(wrong, np.abs(pull), -1.0))] = False

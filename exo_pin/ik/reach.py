@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.leg import leg
+from exo_pin.ik.chain import mix
+from exo_pin.ik.leg import Leg, leg
 from exo_pin.ik.problem import Problem
+from exo_pin.ik.targets import CHUNK
 
 Array = npt.NDArray[np.float64]
 
@@ -24,6 +26,14 @@ def slack(task: Problem) -> Array:
         chain = leg(task.robot, goal.frame)
         if chain is None or goal.R is None:
             continue
-        ankle = goal.p[:, 0] + goal.R @ chain.ankle_in_frame
-        out[:, f] = chain.reach - np.linalg.norm(ankle - chain.hip, axis=1)
+        for a in range(0, task.n, CHUNK):
+            part = slice(a, a + CHUNK)
+            out[part, f] = chain.reach - _distance(chain, goal.R[part], goal.p[part, 0])
     return out
+
+
+def _distance(chain: Leg, R: Array, p: Array) -> Array:
+    """From the hip centre to the ankle of each target (m,) [m]."""
+    ankle, hip = [float(x) for x in chain.ankle_in_frame], chain.hip
+    apart = [p[:, i] - hip[i] + mix([R[:, i, j] for j in range(3)], ankle) for i in range(3)]
+    return np.asarray(np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))

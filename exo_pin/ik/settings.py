@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from exo_pin.errors import DescriptionError
 
@@ -36,6 +36,39 @@ class Dls:
     def __post_init__(self) -> None:
         _positive(self, "tolerance", "max_iterations", "position_weight", "rotation_weight")
         _not_negative(self, "restarts", "damping")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Auto:
+    """The closed form where a leg has one, every answer checked, and damped least squares for the rest.
+
+    Attributes:
+        tolerance: A frame has converged when every position error [m] and rotation error [rad] is below it.
+        dls: For what the closed form cannot answer; its tolerance is replaced by this one.
+    """
+
+    tolerance: float = 1e-9
+    dls: Dls = field(default_factory=Dls)
+
+    def __post_init__(self) -> None:
+        _positive(self, "tolerance")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClosedForm:
+    """The closed form alone, checked; a target out of reach gets a straight leg and is flagged.
+
+    Attributes:
+        tolerance: A frame has converged when every position error [m] and rotation error [rad] is below it.
+    """
+
+    tolerance: float = 1e-9
+
+    def __post_init__(self) -> None:
+        _positive(self, "tolerance")
+
+
+Settings = Auto | ClosedForm | Dls
 
 
 def _positive(settings: object, *names: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,18 +12,18 @@ import numpy.typing as npt
 from exo_pin.errors import ConvergenceError, UnknownNameError
 from exo_pin.ik.problem import Problem, problem
 from exo_pin.ik.result import Solution, Track
-from exo_pin.ik.sequential import follow
-from exo_pin.ik.settings import Dls
+from exo_pin.ik.settings import Auto, ClosedForm, Dls, Settings
+from exo_pin.ik.solvers import auto, closed, descend
 from exo_pin.ik.targets import Points, Pose, Position, Target
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
-Settings = Dls
+Solver = Callable[[Problem, Any], Track]
 
-SOLVERS: dict[type, Callable[[Problem, Settings], Track]] = {Dls: follow}
+SOLVERS: dict[type, Solver] = {Auto: auto, ClosedForm: closed, Dls: descend}
 """What answers each kind of settings."""
 
-DEFAULT = Dls()
+DEFAULT = Auto()
 
 
 def track(
@@ -76,7 +77,7 @@ def solve(
     return answer
 
 
-def _solver(settings: Settings) -> Callable[[Problem, Settings], Track]:
+def _solver(settings: Settings) -> Solver:
     if type(settings) not in SOLVERS:
         raise UnknownNameError("solver", type(settings).__name__, [kind.__name__ for kind in SOLVERS])
     return SOLVERS[type(settings)]

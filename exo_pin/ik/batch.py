@@ -1,0 +1,68 @@
+"""All samples at once: the closed form of a leg, its check, and damped least squares for what remains."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.ik import batch_dls, chain, closed_form
+from exo_pin.ik.ideal import IdealLeg
+from exo_pin.ik.leg import Leg
+from exo_pin.ik.problem import Problem
+from exo_pin.ik.settings import Dls
+from exo_pin.ik.sheet import SOLVED_BY, Sheet
+from exo_pin.ik.targets import CHUNK
+
+Array = npt.NDArray[np.float64]
+Places = npt.NDArray[np.int64]
+
+
+def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
+    """Write the closed form's answers for the leg of target f, within limits, and their true errors."""
+    goal = task.goals[f]
+    assert goal.R is not None  # a leg is asked for full poses only (`legs.standing`)
+    low, high = leg.lower[:, None], leg.upper[:, None]
+    for a in range(0, task.n, CHUNK):
+        part = slice(a, a + CHUNK)
+        R, p = chain.components(goal.R[part], goal.p[part, 0])
+        q = closed_form.angles(ideal, R, p)
+        np.minimum(np.maximum(q, low, out=q), high, out=q)
+        sheet.errors[0, part, f], sheet.errors[1, part, f] = chain.errors(chain.forward(leg, q), R, p)
+        for j, column in enumerate(leg.columns):
+            sheet.q[part, column] = q[j]
+
+
+def descent(
+    task: Problem, f: int, leg: Leg, settings: Dls, sheet: Sheet, *, seed: Array | None = None
+) -> None:
+    """Damped least squares for the samples of target f that are not within the tolerance.
+
+    The seed (6, n) is what stands on the sheet if left out.
+    """
+    goal = task.goals[f]
+    assert goal.R is not None  # as above
+    with np.errstate(invalid="ignore"):
+        rest = np.flatnonzero(~(sheet.errors[:, :, f] <= settings.tolerance).all(axis=0))
+    if not len(rest):
+        return
+    begin = sheet.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
+    near = np.asarray(~(sheet.slack[rest, f] < 0.0))
+    own = weighted(settings, goal.weight[0, 0], goal.rotation_weight)
+    answer = batch_dls.answers(leg, goal.R[rest], goal.p[rest, 0], begin, own, reachable=near)
+    sheet.q[np.ix_(rest, leg.columns)] = answer.q.T
+    sheet.errors[:, rest, f] = answer.errors
+    sheet.steps[rest] += answer.steps
+    sheet.solver[rest] = SOLVED_BY.index("dls")
+
+
+def weighted(settings: Dls, position: float, rotation: float) -> Dls:
+    """The settings with a target's own weights multiplied in."""
+    if position == rotation == 1.0:
+        return settings
+    return replace(
+        settings,
+        position_weight=settings.position_weight * position,
+        rotation_weight=settings.rotation_weight * rotation,
+    )

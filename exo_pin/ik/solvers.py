@@ -1,0 +1,93 @@
+"""The solvers behind the settings: closed form, damped least squares, and the choice between them."""
+
+from __future__ import annotations
+
+import weakref
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.errors import DescriptionError
+from exo_pin.ik import batch
+from exo_pin.ik.ideal import IdealLeg, ideal
+from exo_pin.ik.leg import Leg, leg
+from exo_pin.ik.limb import Limb
+from exo_pin.ik.problem import Problem
+from exo_pin.ik.result import Track
+from exo_pin.ik.sequential import follow
+from exo_pin.ik.settings import Auto, ClosedForm, Dls
+from exo_pin.ik.sheet import Sheet
+
+Array = npt.NDArray[np.float64]
+NEARLY = 0.2
+"""Axes this near to an ideal leg's [m, sine] lend their closed form as a seed."""
+_IDEALS: weakref.WeakKeyDictionary[Leg, dict[float, IdealLeg | None]] = weakref.WeakKeyDictionary()
+
+
+def closed_form_of(own: Leg, *, tolerance: float = 1e-9) -> IdealLeg | None:
+    """The constants of the leg's closed form, read once."""
+    known = _IDEALS.setdefault(own, {})
+    if tolerance not in known:
+        known[tolerance] = ideal(own, tolerance=tolerance)
+    return known[tolerance]
+
+
+def auto(task: Problem, settings: Auto) -> Track:
+    """Closed form, check, and damped least squares for the rest, each limb by the best that it allows."""
+    sheet, dls = Sheet.blank(task), replace(settings.dls, tolerance=settings.tolerance)
+    for limb, f, own in _limbs(task):
+        exact = None if own is None else closed_form_of(own)
+        near = None if own is None else exact or closed_form_of(own, tolerance=NEARLY)
+        if own is None or near is None:
+            _iterate(task, limb, f, own, dls, sheet)
+            continue
+        batch.formula(task, f, own, near, sheet)
+        batch.descent(task, f, own, dls, sheet)
+    return sheet.track(task, settings.tolerance)
+
+
+def closed(task: Problem, settings: ClosedForm) -> Track:
+    """The closed form, checked.
+
+    Raises:
+        DescriptionError: A target is not the full pose of a leg that has a closed form.
+    """
+    sheet = Sheet.blank(task)
+    for limb, f, own in _limbs(task):
+        exact = None if own is None else closed_form_of(own)
+        if own is None or exact is None:
+            raise DescriptionError(
+                f"{', '.join(limb.frames)}: no closed form; it needs the full pose of a frame on a leg of "
+                "six joints whose hip axes meet, and so on (docs/ik.md). Auto() finds an answer all the same"
+            )
+        batch.formula(task, f, own, exact, sheet)
+    return sheet.track(task, settings.tolerance)
+
+
+def descend(task: Problem, settings: Dls) -> Track:
+    """Damped least squares alone."""
+    sheet = Sheet.blank(task)
+    for limb, f, own in _limbs(task):
+        _iterate(task, limb, f, own, settings, sheet)
+    return sheet.track(task, settings.tolerance)
+
+
+def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, sheet: Sheet) -> None:
+    """All samples at once where they do not wait for each other, else one after the other."""
+    apart = task.seed.ndim == 2 or not settings.warm_start
+    if own is None or not apart or task.n < 2:
+        follow(task, limb, settings, sheet)
+        return
+    seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, own.columns].T
+    batch.descent(task, f, own, settings, sheet, seed=seed)
+
+
+def _limbs(task: Problem) -> Iterator[tuple[Limb, int, Leg | None]]:
+    """Each limb, with its target and its leg where it is a leg that is asked for full poses."""
+    for limb in task.limbs:
+        places = task.places_of(limb)
+        goal = task.goals[places[0]]
+        single = len(places) == 1 and goal.R is not None and not limb.floats
+        yield limb, places[0], leg(task.robot, goal.frame) if single else None
