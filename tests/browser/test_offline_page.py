@@ -105,10 +105,9 @@ def test_playing_moves_the_walk_by_the_wall_clock(page):
 
 
 def test_half_speed_is_half_as_far(page):
-    page.evaluate("exo.seek(0); exo.setSpeed(0.5); exo.clock.last = null; exo.clock.playing = true")
-    moved = page.evaluate("(exo.clock.tick(1000), exo.clock.tick(1200), exo.clock.time)")
-    page.evaluate("exo.clock.play(false); exo.setSpeed(1)")
-    assert moved == pytest.approx(0.1, abs=0.02)
+    clock = "(c => (c.play(), c.speed = {0}, c.last = 1000, c.tick(1200), c.time))(new Clock(1))"
+    assert page.evaluate(clock.format(1)) == pytest.approx(0.2)
+    assert page.evaluate(clock.format(0.5)) == pytest.approx(0.1)
 
 
 def test_the_loop_closes_or_the_walk_halts_at_its_end(page):

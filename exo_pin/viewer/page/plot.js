@@ -1,7 +1,8 @@
 /* Plot: one joint's curves, left and right. The curves are painted once per size; per frame only the cursor is. */
 
 const MARGIN = { left: 38, right: 10, top: 22, bottom: 14 };
-const FONT = "11px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+const FONT = "px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+const USUAL = 105; // height of a plot [px] at which text is 11 px; taller plots have larger text
 
 function palette() {
   const css = getComputedStyle(document.documentElement);
@@ -46,15 +47,17 @@ class Plot {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
-    this.x = new Scale(0, this.motion.duration || 1, MARGIN.left, width - MARGIN.right);
-    this.y = new Scale(...this.range(), height - MARGIN.bottom, MARGIN.top);
+    this.unit = Math.min(Math.max(Math.min(height / USUAL, width / 320), 1), 1.4);
+    const margin = (side) => MARGIN[side] * this.unit;
+    this.x = new Scale(0, this.motion.duration || 1, margin("left"), width - margin("right"));
+    this.y = new Scale(...this.range(), height - margin("bottom"), margin("top"));
     this.paint();
   }
 
   pen(canvas) {
     const pen = canvas.getContext("2d");
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    pen.font = FONT;
+    pen.font = 11 * this.unit + FONT;
     return pen;
   }
 
@@ -66,7 +69,7 @@ class Plot {
     this.paintAxes(pen, colors);
     pen.save();
     pen.beginPath();
-    pen.rect(MARGIN.left, MARGIN.top, this.width - MARGIN.left - MARGIN.right, this.y.from - MARGIN.top);
+    pen.rect(this.x.from, this.y.to, this.x.to - this.x.from, this.y.from - this.y.to);
     pen.clip();
     for (const series of this.spec.series) this.paintLimits(pen, series, colors);
     for (const series of this.spec.series) this.paintCurve(pen, this.source.reference, series, colors, [4, 3]);
@@ -74,7 +77,7 @@ class Plot {
     pen.restore();
     pen.fillStyle = colors.ink;
     pen.textAlign = "left";
-    pen.fillText(this.spec.title, MARGIN.left, 13);
+    pen.fillText(this.spec.title, this.x.from, 13 * this.unit);
   }
 
   paintStance(pen, colors) {
@@ -83,7 +86,7 @@ class Plot {
       for (const [from, to] of this.motion.stance[side]) {
         const [x0, x1] = [this.x.of(from), this.x.of(to)];
         pen.globalAlpha = 0.07;
-        pen.fillRect(x0, MARGIN.top, x1 - x0, this.y.from - MARGIN.top);
+        pen.fillRect(x0, this.y.to, x1 - x0, this.y.from - this.y.to);
         pen.globalAlpha = 0.75;
         pen.fillRect(x0, this.y.from + 1.5 + row * 3, x1 - x0, 2);
       }
@@ -96,22 +99,21 @@ class Plot {
     pen.fillStyle = colors.muted;
     pen.lineWidth = 1;
     pen.textAlign = "right";
-    const room = (this.y.from - MARGIN.top) / 26;
+    const room = (this.y.from - this.y.to) / (26 * this.unit);
     for (const value of this.y.ticks(Math.max(3, Math.min(room, 5)))) {
       const y = Math.round(this.y.of(value)) + 0.5;
       pen.globalAlpha = value === 0 ? 1 : 0.6;
       pen.beginPath();
-      pen.moveTo(MARGIN.left, y);
-      pen.lineTo(this.width - MARGIN.right, y);
+      pen.moveTo(this.x.from, y);
+      pen.lineTo(this.x.to, y);
       pen.stroke();
       pen.globalAlpha = 1;
-      pen.fillText(String(Number(value.toFixed(6))).replace("-", "\u2212"), MARGIN.left - 5, y + 4);
+      pen.fillText(String(Number(value.toFixed(6))).replace("-", "\u2212"), this.x.from - 5, y + 4 * this.unit);
     }
   }
 
   paintLimits(pen, series, colors) {
     const { factor } = this.spec;
-    const right = this.width - MARGIN.right;
     const beyond = [
       [this.y.of(series.lower * factor), this.y.from],
       [this.y.to, this.y.of(series.upper * factor)],
@@ -120,9 +122,9 @@ class Plot {
       if (!(bottom - top > 0.5)) continue;
       pen.fillStyle = colors.limit;
       pen.globalAlpha = 0.16;
-      pen.fillRect(MARGIN.left, top, right - MARGIN.left, bottom - top);
+      pen.fillRect(this.x.from, top, this.x.to - this.x.from, bottom - top);
       pen.globalAlpha = 0.9;
-      pen.fillRect(MARGIN.left, top === this.y.to ? bottom - 1 : top, right - MARGIN.left, 1);
+      pen.fillRect(this.x.from, top === this.y.to ? bottom - 1 : top, this.x.to - this.x.from, 1);
     }
     pen.globalAlpha = 1;
   }
@@ -156,7 +158,7 @@ class Plot {
     const x = this.x.of(t);
     pen.strokeStyle = this.colors.ink;
     pen.beginPath();
-    pen.moveTo(x, MARGIN.top);
+    pen.moveTo(x, this.y.to);
     pen.lineTo(x, this.y.from);
     pen.stroke();
     const row = this.motion.row(this.source.values, at);
@@ -169,11 +171,11 @@ class Plot {
     const text = value.toFixed(this.spec.digits).replace("-", "\u2212") + this.spec.unit;
     pen.fillStyle = this.colors[series.side];
     pen.beginPath();
-    pen.arc(x, this.y.of(value), 3.2, 0, 7);
+    pen.arc(x, this.y.of(value), 3.2 * this.unit, 0, 7);
     pen.fill();
     pen.textAlign = "right";
     const last = this.spec.series.length - 1;
-    pen.fillText(text, this.width - MARGIN.right - (last - k) * 52, 13);
+    pen.fillText(text, this.x.to - (last - k) * 52 * this.unit, 13 * this.unit);
     return `${series.side} ${text}`;
   }
 }
