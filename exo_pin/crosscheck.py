@@ -32,22 +32,31 @@ hardly tells the knee's angle."""
 _SAMPLES = 200
 """Configurations that yourdfpy is asked for: it takes a millisecond each."""
 
+_GRID = 6
+"""Decimals of the angles that yourdfpy is asked for: the scene graph below it leaves out turns, and changes
+of a turn, below 1e-8 rad."""
+
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
     """What inverse kinematics made of a gait's feet; the row `k` belongs to the gait's sample `k`.
 
     Attributes:
-        gait: The recovered walk, in the order of `JOINTS`.
+        given: The walk whose feet were given.
+        gait: The recovered walk.
         track: The solver's own account.
         within: (n,) True where the given angles are within the robot's limits.
-        angle_error: (n, 12) recovered minus given angles [rad].
     """
 
+    given: Gait
     gait: Gait
     track: ik.Track
     within: npt.NDArray[np.bool_]
-    angle_error: Array
+
+    @property
+    def angle_error(self) -> Array:
+        """(n, 12) recovered minus given angles [rad]."""
+        return self.gait.q - self.given.q
 
     @property
     def comparable(self) -> npt.NDArray[np.bool_]:
@@ -70,10 +79,9 @@ def recover(robot: Robot, gait: Gait, *, settings: Any = None) -> Recovery:
     feet = poses(robot, q, FEET, base=base)
     chosen = {} if settings is None else {"settings": settings}
     track = ik.track(robot, {foot: feet[:, k] for k, foot in enumerate(FEET)}, base=base, **chosen)
-    recovered = robot.to_gait(track.q, gait)
     angles = robot.angles(q)
     within = np.all((angles >= robot.lower - 1e-9) & (angles <= robot.upper + 1e-9), axis=1)
-    return Recovery(recovered, track, within, recovered.q - gait.q)
+    return Recovery(gait, robot.to_gait(track.q, gait), track, within)
 
 
 def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
@@ -81,7 +89,8 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
 
     Args:
         robot: A robot made from a `Body`.
-        q: Configurations (n, nq) [rad]; at most 200 of them, evenly chosen, are given to yourdfpy.
+        q: Configurations (n, nq) [rad]; at most 200 of them, evenly chosen and rounded to
+            a microradian, are given to yourdfpy.
 
     Returns:
         `recursion`, `dh` and `yourdfpy`: over every joint's link and both feet.
@@ -97,7 +106,7 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
     witnesses: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
         "recursion": (q, lambda q: dh.recursion(body, q, hip_order=order)),
         "dh": (q, lambda q: dh.modified_dh(body, q, hip_order=order)),
-        "yourdfpy": (few, lambda q: _yourdfpy(robot, q)),
+        "yourdfpy": (np.round(few, _GRID), lambda q: _yourdfpy(robot, q)),
     }
     return {name: _difference(robot, q, witness(q)) for name, (q, witness) in witnesses.items()}
 

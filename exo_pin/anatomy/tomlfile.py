@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from exo_pin.errors import FormatError
-
-_LARGEST = 1_000_000  # bytes; a body file has about 4 kB
+from exo_pin.files import read_lines, write_text
 
 
 def write(
@@ -37,14 +35,7 @@ def write(
         document.add(name, item)
     for name, table in tables.items():
         document.add(name, tomlkit.item(dict(table)))
-    target = Path(path)
-    draft = target.with_name(f".{target.name}.{os.getpid()}")
-    try:
-        draft.write_text(tomlkit.dumps(document), encoding="utf-8")
-        draft.replace(target)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        raise FormatError(path, f"cannot be written: {error.strerror or error}") from None
+    write_text(path, tomlkit.dumps(document))
 
 
 def read(path: str | Path) -> dict[str, Any]:
@@ -54,10 +45,6 @@ def read(path: str | Path) -> dict[str, Any]:
         FormatError: The file cannot be read or is no TOML.
     """
     try:
-        if Path(path).stat().st_size > _LARGEST:
-            raise FormatError(path, "is too large for a settings file; at most 1 MB is accepted")
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FormatError(path, f"cannot be read: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        return tomllib.loads("\n".join(read_lines(path)))
+    except tomllib.TOMLDecodeError as error:
         raise FormatError(path, f"is not TOML: {error}") from None

@@ -57,10 +57,10 @@ def _print(verdict: Check, name: str) -> None:
     ]
     show.table(f"Cross-checks: {name}", ["check", "largest difference", ""], rows)
     limit_rows = [
-        [joint, f"{r['min']:.1f}", f"{r['max']:.1f}", str(r["violated_frames"] or "-")]
+        [joint, show.fixed(r["min"]), show.fixed(r["max"]), str(r["violated_frames"] or "-")]
         for joint, r in facts["limits"].items()
     ]
-    show.table("Joint ranges", ["joint", "min deg", "max deg", "frames outside limits"], limit_rows)
+    show.table("Joint ranges", ["joint", "min deg", "max deg", "outside limits"], limit_rows)
     print("verdict: " + ("all is well" if verdict.ok else _why(verdict)))
 
 

@@ -37,8 +37,8 @@ def run(args: argparse.Namespace) -> int:
     random = np.random.default_rng(0).uniform(robot.lower, robot.upper, (1000, len(robot.joints)))
     difference = crosscheck.forward(robot, random)["dh"]
     note = (
-        f"modified D-H (Craig), hip order {args.hip_order}, body {body.stature:g} m; "
-        f"frame 0 at the hip centre; largest difference to Pinocchio over 1000 random poses: {difference:.1e} m"
+        f"modified D-H (Craig), hip order {args.hip_order}, body {body.stature:g} m; frame 0 at the hip "
+        f"centre; largest difference to Pinocchio over 1000 random poses: {difference:.1e} m"
     )
     rows = [row for side in ("left", "right") for row in table(body, side, hip_order=args.hip_order)]
     print(_FORMATS[args.format](rows, note))

@@ -39,6 +39,8 @@ def run(args: argparse.Namespace) -> int:
     q = robot.from_gait(gait)
     parts = [poses(robot, q[part], FEET, base=base[part]) for part in show.blocks(n, "forward kinematics")]
     feet = np.concatenate(parts)
-    save_poses(Poses(gait.time, base, {foot: feet[:, k] for k, foot in enumerate(FEET)}), args.output)
+    targets = {foot: feet[:, k] for k, foot in enumerate(FEET)}
+    table = Poses(gait.time, base, targets, events=gait.events, periodic=gait.periodic, source=gait.source)
+    save_poses(table, args.output)
     print(f"{args.output}: {n} poses of {', '.join(FEET)}")
     return 0

@@ -37,7 +37,12 @@ def run(args: argparse.Namespace) -> int:
     robot = load_robot(options.body_from(args))
     track = ik.track(robot, table.targets, base=table.base)
     gait = Gait(
-        table.time, robot.angles(track.q), base=table.base, source=f"inverse kinematics of {args.poses}"
+        table.time,
+        robot.angles(track.q),
+        base=table.base,
+        events=table.events,
+        periodic=table.periodic,
+        source=f"inverse kinematics of {args.poses}" + (f"; {table.source}" if table.source else ""),
     )
     save_gait(gait, args.output)
     _print(track, args.output)

@@ -29,16 +29,16 @@ def run(args: argparse.Namespace) -> int:
     rows = [
         [
             joint,
-            f"{r['min_deg']:.1f}",
-            f"{r['max_deg']:.1f}",
-            f"{r['peak_speed_deg_s']:.0f}",
+            show.fixed(r["min_deg"]),
+            show.fixed(r["max_deg"]),
+            show.fixed(r["peak_speed_deg_s"], 0),
             r["outside"] or "-",
         ]
         for joint, r in facts["joints"].items()
     ]
     kind = "one cycle, repeated" if facts["periodic"] else "a recording"
     title = f"{args.gait}: {kind}, {facts['samples']} samples in {facts['duration_s']:.3f} s"
-    columns = ["joint", "min deg", "max deg", "peak deg/s", "frames outside limits"]
+    columns = ["joint", "min deg", "max deg", "peak deg/s", "outside limits"]
     show.table(title, columns, [[str(cell) for cell in row] for row in rows])
     moves = "pelvis moves" if facts["pelvis_moves"] else "pelvis does not move"
     print(f"source: {facts['source'] or 'not stated'}\n{moves}; events: {len(facts['events']) or 'none'}")

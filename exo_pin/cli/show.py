@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
-
-from exo_pin.errors import FormatError
 
 BLOCK = 2000
 """Samples between two steps of a progress bar."""
 
 
-def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], *, note: str = "") -> None:
+def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table; the first column is text, the others are numbers."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
 
-    drawn = Table(title=title, box=box.SIMPLE_HEAD, title_justify="left", caption=note or None)
-    drawn.caption_justify = "left"
+    drawn = Table(box=box.SIMPLE_HEAD, title=None)
     for k, name in enumerate(columns):
-        drawn.add_column(name, justify="right" if k else "left")
+        drawn.add_column(name, justify="right" if k else "left", no_wrap=not k)
     for row in rows:
         drawn.add_row(*row)
+    print(title)
     Console(highlight=False).print(drawn)
+
+
+def fixed(value: float, digits: int = 1) -> str:
+    """A number with that many decimals, and no minus before a zero."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def as_json(facts: Any) -> None:
@@ -45,18 +46,3 @@ def blocks(n: int, label: str) -> Iterator[slice]:
     from rich.progress import track
 
     yield from track(parts, description=label, console=Console(stderr=True), transient=True)
-
-
-def write(path: Path, text: str) -> None:
-    """Write a text file whole or not at all.
-
-    Raises:
-        FormatError: It cannot be written.
-    """
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        draft.write_text(text, encoding="utf-8")
-        draft.replace(path)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        raise FormatError(path, f"cannot be written: {error.strerror or error}") from None

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import sys
-from pathlib import Path
 from typing import Any
 
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.sizes import LEG_SIZES
-from exo_pin.cli import options, show
+from exo_pin.cli import options
+from exo_pin.files import write_text
 
 _EXAMPLES = """examples:
   exo-pin urdf -o exo.urdf
@@ -42,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         _hand_over(args, name)
     text = description.urdf(options.body_from(args), **model, **{k: str(v) for k, v in given.items()})
     if args.output:
-        show.write(Path(args.output), text)
+        write_text(args.output, text)
         print(f"{args.output}: {len(text)} bytes")
     else:
         sys.stdout.write(text)

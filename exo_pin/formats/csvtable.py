@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.files import read_lines, write_text
+from exo_pin.files import read_lines, write_text
 from exo_pin.formats.notes import Note, Notes, split, to_lines
 from exo_pin.formats.table import Array, Table, missing, parse, rows_of_text
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.files import read_lines, write_text
+from exo_pin.files import read_lines, write_text
 from exo_pin.formats.notes import Note, split
 from exo_pin.formats.table import Array, Table, parse, rows_of_text
 

@@ -1,0 +1,65 @@
+"""The cross-checks see what is right, and what is not."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exo_pin import crosscheck
+from exo_pin.anatomy import JOINTS, Body
+from exo_pin.errors import DescriptionError
+from exo_pin.formats import load_gait
+from exo_pin.gait import SPEEDS, normative_gait
+from exo_pin.robot import load_robot, load_urdf
+
+ROBOT = load_robot()
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_all_is_well_with_the_normal_walk(speed):
+    verdict = crosscheck.check(ROBOT, normative_gait(speed))
+    assert verdict.ok
+    facts = verdict.facts()
+    assert set(facts) == {"fk_max_difference", "ik", "limits", "ok"}
+    assert set(facts["fk_max_difference"]) == {"recursion", "dh", "yourdfpy"}
+    assert set(facts["limits"]) == set(JOINTS)
+    assert facts["ik"]["converged"] == facts["ik"]["frames"] == 100
+    assert facts["ik"]["max_angle_error_deg"] < np.degrees(1e-6)
+
+
+def test_a_joint_outside_its_limits_is_named_and_counted():
+    gait = normative_gait()
+    body = Body.from_stature(limits={"left_knee_flexion": (0.0, np.radians(30))})
+    verdict = crosscheck.check(load_robot(body), gait)
+    bent = int((gait.q[:, JOINTS.index("left_knee_flexion")] > np.radians(30)).sum())
+    assert not verdict.ok
+    assert verdict.fk_ok
+    assert verdict.limits["left_knee_flexion"][2] == bent
+    assert verdict.limits["right_knee_flexion"][2] == 0
+    assert verdict.recovery.within.sum() == len(gait.time) - bent
+
+
+def test_the_recorded_walk_is_recovered_within_limits(shared):
+    gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
+    verdict = crosscheck.check(ROBOT, gait)
+    facts = verdict.facts()["ik"]
+    assert verdict.fk_ok
+    assert verdict.ik_ok
+    assert facts["max_angle_error_deg"] < np.degrees(1e-6)
+    outside = {joint for joint, (_, _, frames) in verdict.limits.items() if frames}
+    assert outside == {"left_knee_flexion", "right_knee_flexion"}  # the person's knees hyperextend
+    low = np.degrees(min(verdict.limits[joint][0] for joint in outside))
+    assert low == pytest.approx(-3.2, abs=0.1)
+
+
+def test_a_foot_that_was_not_reached_is_not_ok():
+    verdict = crosscheck.check(ROBOT, normative_gait())
+    track = verdict.recovery.track
+    missed = dataclasses.replace(track, converged=np.arange(len(track.q)) != 3)
+    recovery = dataclasses.replace(verdict.recovery, track=missed)
+    assert not dataclasses.replace(verdict, recovery=recovery).ok
+
+
+def test_only_our_own_robots_have_a_witness():
+    with pytest.raises(DescriptionError, match="load_robot"):
+        crosscheck.forward(load_urdf(ROBOT.urdf), np.zeros((1, 12)))
