@@ -75,7 +75,9 @@ def _scene(args: argparse.Namespace) -> Scene:
     name = Path(args.gait).name
     _print(robot, recovery, name)
     notes = [line for line in (gait.source, note) if line]
-    return viewer.scene(robot, recovery.gait, reference=gait, title=f"{name} - exo_pin", notes=notes)
+    return viewer.scene(
+        robot, recovery.gait, reference=gait, title=f"{name} - exo_pin", notes=notes, speed=args.speed
+    )
 
 
 def _print(robot: Robot, recovery: Recovery, name: str) -> None:

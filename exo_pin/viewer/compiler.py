@@ -37,6 +37,7 @@ def scene(
     reference_title: str = "source",
     title: str = "12-DoF exoskeleton gait",
     notes: Iterable[str] = (),
+    speed: float = 1.0,
 ) -> Scene:
     """Everything that the viewer shows of a walk, as one value.
 
@@ -47,6 +48,7 @@ def scene(
         reference_title: What the dashed curves are.
         title: Heading of the page.
         notes: Sentences to print under the plots.
+        speed: Playback speed at first; 1 is as it happened.
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker.
@@ -70,6 +72,7 @@ def scene(
         marks=marks,
         boxes=_boxes(shown),
         follow=shown.overground,
+        speed=speed,
         shadowless=tuple(f"{ROOT}/{name}" for name in ("traces", "marks", "floor")),
         lights=furniture.PLAIN_LIGHTS,
     )

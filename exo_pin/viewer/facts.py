@@ -129,6 +129,7 @@ class Facts:
         marks: What moves besides the figures.
         boxes: `whole` and `feet`, for the cameras.
         follow: Whether the cameras go along with the pelvis.
+        speed: Playback speed at first, 1 = as it happened.
         shadowless: Paths that cast no shadow.
         lights: Light name -> intensity without the studio's environment.
     """
@@ -148,6 +149,7 @@ class Facts:
     marks: Marks
     boxes: Mapping[str, Box]
     follow: bool
+    speed: float
     shadowless: tuple[str, ...]
     lights: Mapping[str, float]
 

@@ -11,11 +11,19 @@ class Controls {
     this.wire("forward", () => player.step(1));
     this.wire("loop", () => player.setLoop(!player.clock.loop));
     this.part("seek").oninput = (event) => player.seek(Number(event.target.value) * player.clock.duration);
-    this.part("speed").replaceChildren(...SPEEDS.map((speed) => new Option(`${speed}\u00d7`, String(speed))));
+    SPEEDS.forEach((speed) => this.offer(speed));
     this.part("speed").onchange = (event) => player.setSpeed(Number(event.target.value));
     this.wire("help", () => this.part("about").showModal());
     this.part("cameras").replaceChildren(...Object.keys(CAMERAS).map((name) => this.camera(name)));
     addEventListener("keydown", (event) => this.key(event));
+  }
+
+  /** Puts a speed into the list of speeds, at its place, if it is not there yet. */
+  offer(speed) {
+    const list = this.part("speed");
+    const later = [...list.options].find((option) => Number(option.value) >= speed);
+    if (later && Number(later.value) === speed) return;
+    list.add(new Option(`${speed}\u00d7`, String(speed)), later ?? null);
   }
 
   wire(id, action) {
@@ -71,6 +79,7 @@ class Controls {
     set("seek", "aria-valuetext", `${time.toFixed(2)} s, ${percent}`);
     this.part("percent").textContent = percent;
     this.part("seconds").textContent = `${time.toFixed(2)} / ${duration.toFixed(2)} s`;
+    this.offer(speed);
     this.part("speed").value = String(speed);
     for (const button of this.part("cameras").children) {
       button.setAttribute("aria-pressed", String(button.dataset.camera === view));

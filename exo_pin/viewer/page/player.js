@@ -36,6 +36,7 @@ class Player {
     this.motion = new Motion(header, arrays);
     const fresh = new Clock(header.duration);
     fresh.playing = !this.calm;
+    fresh.speed = header.speed;
     this.clock = fresh;
     this.describe(header);
     this.plots.load(this.motion, header.plots);
@@ -136,8 +137,9 @@ class Player {
   }
 
   faster(by) {
-    const k = SPEEDS.indexOf(this.clock.speed) + by;
-    this.setSpeed(SPEEDS[Math.min(Math.max(k, 0), SPEEDS.length - 1)]);
+    const { speed } = this.clock;
+    const next = by > 0 ? SPEEDS.find((s) => s > speed) : SPEEDS.findLast((s) => s < speed);
+    this.setSpeed(next ?? speed);
   }
 
   look(name) {
