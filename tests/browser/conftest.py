@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 
 import pytest
@@ -15,6 +16,7 @@ from exo_pin.viewer import chromium
 @pytest.fixture(scope="session")
 def browser():
     if chromium.find() is None:
+        assert "EXO_PIN_REQUIRE_BROWSER" not in os.environ, "CI must test in a browser"
         pytest.skip("needs Chromium (e.g. `apt install chromium`), or its path in EXO_PIN_CHROMIUM")
     with chromium.Chromium((1000, 680)) as running:
         yield running
