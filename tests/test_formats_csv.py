@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from exo_pin import files
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
-from exo_pin.formats import FORMATS, files, load_gait, save_gait
+from exo_pin.formats import FORMATS, load_gait, save_gait
 from exo_pin.gait import Event, Gait, normative_gait
 
 ROUND_TRIP = 1e-12  # [rad, m, s] the promise; degrees and back cost about 1e-16
