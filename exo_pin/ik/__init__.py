@@ -1,5 +1,6 @@
 """Inverse kinematics: joint angles from the poses of the feet (or any frames, positions, markers)."""
 
+from exo_pin.ik.online import Online
 from exo_pin.ik.result import Solution, Track
 from exo_pin.ik.settings import Auto, ClosedForm, Dls
 from exo_pin.ik.targets import Points, Pose, Position
@@ -10,6 +11,7 @@ __all__ = [
     "Auto",
     "ClosedForm",
     "Dls",
+    "Online",
     "Points",
     "Pose",
     "Position",

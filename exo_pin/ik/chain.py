@@ -125,16 +125,18 @@ def _plus(a: list[Number], b: list[Number]) -> list[Number]:
 
 def _rotated(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
     """R times the rotation about an axis; two columns turn where the axis is a coordinate axis."""
-    k = int(np.argmax(np.abs(axis)))
-    if abs(abs(axis[k]) - 1.0) > _ZERO or np.delete(np.abs(axis), k).max() > _ZERO:
-        return _rodrigues(R, axis, s, c)
+    x = [float(v) for v in axis]
+    k = max(range(3), key=lambda i: abs(x[i]))
     a, b = (k + 1) % 3, (k + 2) % 3
-    if axis[k] < 0:
+    if abs(abs(x[k]) - 1.0) > _ZERO or abs(x[a]) > _ZERO or abs(x[b]) > _ZERO:
+        return _rodrigues(R, axis, s, c)
+    if x[k] < 0:
         a, b = b, a
+    minus = -s
     out = [list(row) for row in R]
     for row, old in zip(out, R, strict=True):
         row[a] = _dot2(old[a], c, old[b], s)
-        row[b] = _dot2(old[b], c, old[a], -s)
+        row[b] = _dot2(old[b], c, old[a], minus)
     return out
 
 
@@ -153,10 +155,12 @@ def _rodrigues(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
 
 def _dot2(x: Number, a: Array, y: Number, b: Array) -> Number:
     """The sum of x a and y b, where x or y may be a plain 0 or 1."""
-    parts: list[Number] = [
-        w if isinstance(v, float) and v == 1.0 else v * w for v, w in ((x, a), (y, b)) if not _is_zero(v)
-    ]
-    return _sum(parts) if parts else 0.0
+    if _is_zero(x):
+        return 0.0 if _is_zero(y) else y * b
+    total = x * a
+    if not _is_zero(y):
+        total += y * b
+    return total
 
 
 def _is_zero(x: Number) -> bool:

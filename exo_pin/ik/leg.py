@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import weakref
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -39,22 +40,22 @@ class Leg:
     lower: Array
     upper: Array
 
-    @property
+    @cached_property
     def hip(self) -> Array:
         """The point nearest to the first three axes (3,), the hip centre of an ideal leg."""
         return nearest_point(self.points[:3], self.axes[:3])
 
-    @property
+    @cached_property
     def ankle(self) -> Array:
         """The point nearest to the last two axes (3,) at q = 0, the ankle centre of an ideal leg."""
         return nearest_point(self.points[4:], self.axes[4:])
 
-    @property
+    @cached_property
     def ankle_in_frame(self) -> Array:
         """The ankle centre as the frame sees it (3,)."""
         return np.asarray(self.tip[:3, :3].T @ (self.ankle - self.tip[:3, 3]))
 
-    @property
+    @cached_property
     def reach(self) -> float:
         """Largest distance from the hip centre to the ankle within the knee's limits [m]."""
         axis, point = self.axes[3], self.points[3]

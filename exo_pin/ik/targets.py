@@ -16,7 +16,7 @@ ORTHONORMAL = 1e-6
 """Largest deviation of R.T @ R from the identity that passes as rounding; what passes is straightened."""
 _EXACT = 1e-13  # a rotation this good needs no straightening
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-CHUNK = 2000
+CHUNK = 4000
 """Samples worked on at once: what stays in a core's cache."""
 
 
