@@ -36,6 +36,7 @@ def scene(
     reference: Gait | None = None,
     reference_title: str = "source",
     title: str = "12-DoF exoskeleton gait",
+    support: str = "carried",
     notes: Iterable[str] = (),
     speed: float = 1.0,
 ) -> Scene:
@@ -47,19 +48,21 @@ def scene(
         reference: Curves to draw dashed beside it, e.g. the source's.
         reference_title: What the dashed curves are.
         title: Heading of the page.
+        support: `"carried"`: the balance support moves the pelvis so that the standing foot stays on the
+            ground; `"still"`: it holds the pelvis as in the paper.
         notes: Sentences to print under the plots.
         speed: Playback speed at first; 1 is as it happened.
 
     Raises:
-        UnknownNameError: The robot lacks a joint or frame of a walker.
+        UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such support.
     """
-    shown = motion(robot, gait)
+    shown = motion(robot, gait, support)
     exo = linkage(robot.urdf, f"{ROOT}/exo")
     commands, marks = _world(robot, gait, shown, exo)
     facts = Facts(
         title=title,
         subtitle=_subtitle(gait),
-        notes=(*notes, *_notes(shown, exo)),
+        notes=tuple(dict.fromkeys((*notes, *_notes(shown, exo)))),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
@@ -71,7 +74,7 @@ def scene(
         groups=_groups(marks),
         marks=marks,
         boxes=_boxes(shown),
-        follow=shown.overground,
+        follow=shown.support.overground,
         speed=speed,
         shadowless=tuple(f"{ROOT}/{name}" for name in ("traces", "marks", "floor")),
         lights=furniture.PLAIN_LIGHTS,
@@ -92,7 +95,7 @@ def _world(robot: Robot, gait: Gait, shown: Motion, exo: Linkage) -> tuple[list[
     """All drawings, and the nodes among them that the page moves."""
     commands = [*furniture.studio(), *exo.commands]
     belt, ground = None, 0.0
-    if not shown.overground:
+    if not shown.support.overground:
         mill = _treadmill(shown, gait)
         commands += furniture.treadmill(f"{ROOT}/treadmill", mill)
         belt, ground = furniture.belt(f"{ROOT}/treadmill", mill), -furniture.DECK
@@ -157,9 +160,9 @@ def _groups(marks: Marks) -> tuple[Group, ...]:
 def _boxes(shown: Motion) -> dict[str, Box]:
     """What the cameras frame: the whole figure, and the feet."""
     y, z = shown.base[0, 1:3, 3].tolist()
-    here = shown.corners[: len(shown.corners) if not shown.overground else 1, :, 0]
+    here = shown.corners[: len(shown.corners) if not shown.support.overground else 1, :, 0]
     low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
-    bottom, top = (0.0 if shown.overground else -furniture.DECK), z + _TOP
+    bottom, top = (0.0 if shown.support.overground else -furniture.DECK), z + _TOP
     middle = (low + high) / 2
     return {
         "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),

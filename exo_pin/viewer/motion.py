@@ -13,12 +13,9 @@ from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
 from exo_pin.viewer import contact
-from exo_pin.viewer.support import Support, carried
+from exo_pin.viewer.support import Support, support
 
 Array = NDArray[np.float64]
-
-OVERGROUND = 0.6
-"""A pelvis that travels further than this [m] walks through the room; else it walks on a treadmill."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +32,6 @@ class Motion:
         stance: Side -> intervals on the ground.
         estimated: Whether stance is guessed from heights because the gait has no events.
         support: How the pelvis was carried, and what remains.
-        overground: Whether the walk goes through the room instead of standing on a treadmill.
     """
 
     time: Array
@@ -47,30 +43,29 @@ class Motion:
     stance: contact.Intervals
     estimated: bool
     support: Support
-    overground: bool
 
 
-def motion(robot: Robot, gait: Gait) -> Motion:
+def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
     """Put a robot through a gait and stand it on the ground.
 
     Args:
         robot: With the joints of a gait, `FEET` and `CORNERS`.
         gait: The walk; its own base motion is used if it has one.
+        style: How the pelvis is carried, one of `support.STYLES`.
 
     Raises:
-        UnknownNameError: The robot lacks a joint or frame of a walker.
+        UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such style.
     """
     q = at_rest(robot, robot.from_gait(gait))
     back = np.linalg.inv(robot.placement)
     T_pelvis = back @ poses(robot, q, (*FEET, *CORNERS))  # (n, 10, 4, 4)
     com_pelvis = _moved(back, center_of_mass(robot, q).position)
     given = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
-    travel = np.linalg.norm(given[-1, :2, 3] - given[0, :2, 3])
     corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = contact.from_events(gait)
     stance = known or contact.estimated(gait, contact.lowest_corners(corners))
-    support = carried(gait, given, corners, stance)
-    base = support.base
+    carried = support(style, gait, given, corners, stance)
+    base = carried.base
     shown = base[:, None] @ T_pelvis
     return Motion(
         time=gait.time - gait.time[0],
@@ -81,8 +76,7 @@ def motion(robot: Robot, gait: Gait) -> Motion:
         com=_moved(base, com_pelvis),
         stance=stance,
         estimated=known is None,
-        support=support,
-        overground=bool(travel > OVERGROUND),
+        support=carried,
     )
 
 

@@ -1,66 +1,204 @@
-"""How the balance support carries the pelvis, so that the picture stands on its ground."""
+"""How the balance support carries the pelvis, so that the walk stands on its ground.
+
+Joint angles say nothing of the pelvis's path. `carried` derives it from the feet: the lowest sole corners are
+kept on the ground, and the corner that bears the weight goes back with the belt; `still` holds the pelvis as
+in the paper and only lifts or lowers the walk as a whole. Neither touches the pelvis's rotation.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.anatomy import SIDES
+from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.viewer.contact import Intervals, lowest_corners, samples
 
 Array = NDArray[np.float64]
 
+SOFTNESS = 0.003
+"""Height difference [m] over which the weight goes from one corner to the next: bounds the sinking."""
+
+BEARING = 0.006
+"""The same for the corners that go with the belt: a rolling foot passes its weight on from heel to ball."""
+
+HARMONICS = 8
+"""The pelvis's path keeps so many harmonics of the cycle: a support does not jerk (a choice)."""
+
+BANDWIDTH = 7.0
+"""The same for recordings [Hz]."""
+
+DEEPEST = 0.003
+"""No sole corner may sink further into the ground than this [m]."""
+
+OVERGROUND = 0.6
+"""A pelvis that travels further than this [m] walks through the room; else it walks on a treadmill."""
+
 
 @dataclass(frozen=True, eq=False)
 class Support:
-    """The pelvis as shown.
+    """The pelvis as shown, and what does not fit.
 
     Attributes:
         base: `(n, 4, 4)` pose of the pelvis.
-        belt_speed: Of the treadmill, backwards [m/s]: the mean speed of the standing foot.
-        note: What was done to the pelvis, in one sentence.
+        belt_speed: Of the treadmill, backwards [m/s]; 0 over ground.
+        overground: Whether the walk goes through the room.
+        sink: How deep a sole corner gets below the ground [m].
+        hover: How far the standing foot is above the ground in single support [m].
+        gap: How far the higher foot is above the ground in double support [m].
+        slide: How far the weight-bearing corner slides sideways during one single support [m].
+        note: All that in words.
     """
 
     base: Array
     belt_speed: float
+    overground: bool
+    sink: float
+    hover: float
+    gap: float
+    slide: float
     note: str
 
 
-def carried(gait: Gait, base: Array, corners: Array, stance: Intervals) -> Support:
-    """Lift or lower the whole walk by one constant, so that the lowest standing corner is on the ground.
+def support(style: str, gait: Gait, base: Array, corners: Array, stance: Intervals) -> Support:
+    """Carry the pelvis.
 
     Args:
+        style: `"carried"` or `"still"`.
         gait: The walk.
         base: `(n, 4, 4)` pose of the pelvis as given.
         corners: `(n, 8, 3)` positions of `CORNERS` with that base [m].
         stance: Side -> intervals on the ground.
+
+    Raises:
+        UnknownNameError: There is no such style.
     """
-    time = gait.time - gait.time[0]
-    heights = lowest_corners(corners)
-    standing = {side: samples(stance, side, time) for side in SIDES}
-    low = [heights[side][standing[side]].min() for side in SIDES if standing[side].any()]
-    shift = -min(low, default=min(heights[side].min() for side in SIDES))
-    shown = base.copy()
-    shown[:, 2, 3] += shift
-    origin = "the gait's own" if gait.base is not None else "held still"
-    note = (
-        f"The pelvis's motion is {origin}, shifted vertically by {1000 * shift:+.1f} mm as a whole so that "
-        "the lowest standing sole corner is on the ground."
+    if style not in STYLES:
+        raise UnknownNameError("support", style, STYLES)
+    overground = bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > OVERGROUND)
+    x, z, said = STYLES[style](gait, corners, stance, overground)
+    shown, feet = base.copy(), corners.copy()
+    for points in (shown[:, None, :3, 3], feet):
+        points[..., 0] += x[:, None]
+        points[..., 2] += z[:, None]
+    speed = 0.0 if overground else max(-float(_bearing_velocity(gait, feet)[:, 0].mean()), 0.0)
+    numbers = _remains(gait, feet, stance)
+    return Support(shown, speed, overground, *numbers, f"{said} {_words(*numbers)}")
+
+
+def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, Array, str]:
+    z = _smooth(gait, -np.sum(_weights(corners, SOFTNESS) * corners[..., 2], axis=1))
+    z += max(-float((corners[..., 2] + z[:, None]).min()) - DEEPEST, 0.0)
+    rise = f"raised and lowered by {_mm(np.ptp(corners[..., 2].min(axis=1)))}"
+    if overground:
+        return (
+            np.zeros(len(z)),
+            z,
+            f"Balance support: the pelvis is {rise} so that the soles stay on the ground.",
+        )
+    drift = _bearing_velocity(gait, corners)[:, 0]
+    x = _smooth(gait, _integral(gait, drift.mean() - drift))
+    x -= x.mean()
+    said = (
+        f"Balance support: the pelvis is {rise} and moved fore and aft by {_mm(np.ptp(x))}, so that the "
+        f"standing foot stays on the belt, which runs at {-drift.mean():.2f} m/s."
     )
-    return Support(shown, _belt_speed(gait, corners, standing), note)
+    return x, z, said
 
 
-def _belt_speed(gait: Gait, corners: Array, standing: dict[str, NDArray[np.bool_]]) -> float:
-    """Mean backward speed of the standing feet [m/s]."""
-    x = {s: corners[:, [c.startswith(s) for c in CORNERS], 0].mean(axis=1) for s in SIDES}
+def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, Array, str]:
+    heights, time = lowest_corners(corners), gait.time - gait.time[0]
+    low = [heights[side][samples(stance, side, time)].min(initial=np.inf) for side in SIDES]
+    shift = -min(low) if np.isfinite(min(low)) else -float(corners[..., 2].min())
+    said = (
+        f"Balance support: the pelvis's path is as given, shifted by {1000 * shift:+.1f} mm as a whole so "
+        "that the lowest standing sole corner is on the ground."
+    )
+    return np.zeros(len(gait)), np.full(len(gait), shift), said
+
+
+STYLES: dict[str, Callable[[Gait, Array, Intervals, bool], tuple[Array, Array, str]]] = {
+    "carried": _carried,
+    "still": _still,
+}
+"""Name -> what moves the pelvis: (fore-aft `(n,)`, vertical `(n,)` [m], words)."""
+
+
+def _weights(corners: Array, softness: float) -> Array:
+    """`(n, 8)` shares of the corners in bearing the weight: the lowest ones, passing smoothly."""
+    height = corners[..., 2] - corners[..., 2].min(axis=1, keepdims=True)
+    share = np.exp(-height / softness)
+    weights: Array = share / share.sum(axis=1, keepdims=True)
+    return weights
+
+
+def _bearing_velocity(gait: Gait, corners: Array) -> Array:
+    """`(n, 3)` velocity of the corners that bear the weight [m/s]."""
+    flat = corners.reshape(len(gait), -1)
     if gait.periodic:
-        velocity = {side: (np.roll(x[side], -1) - np.roll(x[side], 1)) for side in SIDES}
-        step = 2 * gait.duration / len(gait)
+        velocity = (np.roll(flat, -1, axis=0) - np.roll(flat, 1, axis=0)) * len(gait) / (2 * gait.duration)
     else:
-        velocity = {side: np.gradient(x[side], gait.time) for side in SIDES}
-        step = 1.0
-    speeds = np.concatenate([velocity[side][standing[side]] / step for side in SIDES])
-    return max(float(-speeds.mean()), 0.0) if len(speeds) else 0.0
+        velocity = np.asarray(np.gradient(flat, gait.time, axis=0))
+    bearing: Array = np.einsum("nc,nck->nk", _weights(corners, BEARING), velocity.reshape(corners.shape))
+    return bearing
+
+
+def _integral(gait: Gait, rate: Array) -> Array:
+    """`(n,)` integral over time from 0; a periodic rate without mean comes back to 0."""
+    steps = np.diff(gait.time) * (rate[1:] + rate[:-1]) / 2
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _smooth(gait: Gait, values: Array) -> Array:
+    """The low harmonics of a cycle, or of a recording continued by its point reflections at both ends."""
+    if gait.periodic:
+        return _low(values, HARMONICS)
+    line = np.linspace(values[0], values[-1], len(values))
+    odd = np.concatenate([values - line, -(values - line)[-2:0:-1]])
+    return line + _low(odd, max(round(2 * BANDWIDTH * gait.duration), 1))[: len(values)]
+
+
+def _low(values: Array, harmonics: int) -> Array:
+    spectrum = np.fft.rfft(values)
+    spectrum[harmonics + 1 :] = 0
+    return np.fft.irfft(spectrum, len(values))
+
+
+def _remains(gait: Gait, feet: Array, stance: Intervals) -> tuple[float, float, float, float]:
+    """Sink, hover, gap and slide of the shown feet [m]."""
+    time = gait.time - gait.time[0]
+    left, right = (samples(stance, side, time) for side in SIDES)
+    low = lowest_corners(feet)
+    single = {"left": left & ~right, "right": right & ~left}
+    hover = max(low[side][single[side]].max(initial=0.0) for side in SIDES)
+    higher = np.maximum(low["left"], low["right"])
+    sideways = _integral(gait, _bearing_velocity(gait, feet)[:, 1])
+    runs = [run for side in SIDES for run in _runs(single[side])]
+    slide = max((float(np.ptp(sideways[run])) for run in runs), default=0.0)
+    return (
+        max(-float(feet[..., 2].min()), 0.0),
+        float(hover),
+        float(higher[left & right].max(initial=0.0)),
+        slide,
+    )
+
+
+def _runs(mask: NDArray[np.bool_]) -> list[slice]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
+    return [slice(a, b) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _words(sink: float, hover: float, gap: float, slide: float) -> str:
+    return (
+        f"What remains: sole corners sink by up to {_mm(sink)}, the standing foot is up to {_mm(hover)} "
+        f"above the ground, the higher one in double support up to {_mm(gap)}; the standing foot slides "
+        f"sideways by up to {_mm(slide)}."
+    )
+
+
+def _mm(metres: float) -> str:
+    return f"{1000 * metres:.1f} mm"

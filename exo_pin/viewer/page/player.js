@@ -35,8 +35,8 @@ class Player {
     this.header = header;
     this.motion = new Motion(header, arrays);
     const fresh = new Clock(header.duration);
-    fresh.playing = !this.calm;
     fresh.speed = header.speed;
+    fresh.play(!this.calm);
     this.clock = fresh;
     this.describe(header);
     this.plots.load(this.motion, header.plots);
@@ -98,7 +98,7 @@ class Player {
   resume({ type, time, playing, speed, loop, view }) {
     if (type !== "state" || !this.motion) return;
     this.clock.seek(time);
-    this.clock.speed = speed;
+    this.setSpeed(speed);
     this.clock.loop = loop;
     this.clock.play(playing && !this.calm);
     if (CAMERAS[view]) this.look(view);

@@ -1,0 +1,127 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exo_pin.errors import UnknownNameError
+from exo_pin.formats import load_gait
+from exo_pin.gait import SPEEDS, Gait, normative_gait
+from exo_pin.robot import load_robot
+from exo_pin.viewer import contact
+from exo_pin.viewer.motion import motion
+from exo_pin.viewer.support import DEEPEST
+
+TOUCH = 2e-3  # [m]: a standing sole this close to the ground touches it
+SMOOTH = 15.0  # [m/s^2]: the pelvis of fast walkers reaches half of this; a jerk far exceeds it
+STEADY = 0.06  # [m]: how far the pelvis may surge; people's pelvis surges 2-4 cm
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return load_robot()
+
+
+def standing(shown, side):
+    return contact.samples(shown.stance, side, shown.time)
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_no_corner_sinks_and_the_standing_foot_touches(robot, speed):
+    shown = motion(robot, normative_gait(speed))
+    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    left, right = standing(shown, "left"), standing(shown, "right")
+    low = contact.lowest_corners(shown.corners)
+    assert low["left"][left & ~right].max() < TOUCH
+    assert low["right"][right & ~left].max() < TOUCH
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_the_pelvis_is_carried_smoothly_and_not_far(robot, speed):
+    gait = normative_gait(speed)
+    shown = motion(robot, gait)
+    path = np.vstack([shown.base[:, :3, 3]] * 2)
+    acceleration = np.diff(path, 2, axis=0) / (gait.duration / len(gait)) ** 2
+    assert np.abs(acceleration).max() < SMOOTH
+    assert np.ptp(path[:, 0]) < STEADY
+    assert np.ptp(path[:, 2]) < STEADY
+
+
+@pytest.mark.parametrize("speed", ["slow", "free", "fast"])
+def test_the_flat_standing_foot_goes_with_the_belt(robot, speed):
+    gait = normative_gait(speed)
+    shown = motion(robot, gait)
+    x = shown.corners[:, :4, 0].mean(axis=1)
+    flat = (
+        standing(shown, "left") & ~standing(shown, "right") & (np.ptp(shown.corners[:, :4, 2], axis=1) < 0.01)
+    )
+    speeds = np.gradient(x, gait.time)[flat]
+    assert flat.sum() > 10
+    assert np.median(speeds) == pytest.approx(-shown.support.belt_speed, rel=0.15)
+
+
+def test_the_belt_runs_as_fast_as_people_walk(robot):
+    speeds = [motion(robot, normative_gait(speed)).support.belt_speed for speed in SPEEDS]
+    assert speeds == sorted(speeds)
+    assert 1.0 < speeds[SPEEDS.index("free")] < 1.5
+
+
+def test_the_rotation_of_the_pelvis_stays_the_gaits_own(robot):
+    gait = normative_gait()
+    assert np.array_equal(motion(robot, gait).base[:, :3, :3], gait.base[:, :3, :3])
+
+
+def test_a_still_support_moves_the_walk_as_a_whole(robot):
+    gait = normative_gait()
+    shown = motion(robot, gait, "still")
+    moved = shown.base[:, :3, 3] - gait.base[:, :3, 3]
+    assert np.ptp(moved, axis=0) == pytest.approx(0, abs=1e-12)
+    assert shown.corners[..., 2].min() == pytest.approx(0, abs=1e-9)
+
+
+def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
+    shown = motion(robot, normative_gait())
+    both = standing(shown, "left") & standing(shown, "right")
+    low = contact.lowest_corners(shown.corners)
+    assert shown.support.gap == pytest.approx(np.maximum(low["left"], low["right"])[both].max())
+    assert shown.support.sink == pytest.approx(-shown.corners[..., 2].min())
+    for number in (shown.support.gap, shown.support.sink, shown.support.slide, shown.support.hover):
+        assert f"{1000 * number:.1f} mm" in shown.support.note
+
+
+def test_a_longer_walk_is_carried_as_its_cycle_is(robot):
+    gait = normative_gait()
+    once, twice = motion(robot, gait), motion(robot, gait.repeated(2))
+    assert twice.support.belt_speed == pytest.approx(once.support.belt_speed, rel=1e-6)
+
+
+def test_a_walk_through_the_room_keeps_its_way_and_gets_its_height(robot):
+    gait = normative_gait()
+    base = gait.base.copy()
+    base[:, 0, 3] += 1.2 * gait.time
+    away = Gait(gait.time, gait.q, base=base, events=gait.events)
+    shown = motion(robot, away)
+    assert shown.support.overground
+    assert shown.support.belt_speed == 0
+    assert np.array_equal(shown.base[:, :2, 3], base[:, :2, 3])
+    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+
+
+def test_a_walk_without_base_and_events_is_carried_too(robot):
+    gait = replace(normative_gait(), base=None, events=())
+    shown = motion(robot, gait)
+    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+
+
+def test_a_recording_is_carried(robot, shared):
+    gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
+    shown = motion(robot, gait)
+    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    assert 0.8 < shown.support.belt_speed < 1.8
+    assert np.abs(np.diff(shown.base[:, :3, 3], 2, axis=0)).max() / np.diff(gait.time)[0] ** 2 < 2 * SMOOTH
+
+
+def test_an_unknown_support_is_refused_with_a_hint(robot):
+    with pytest.raises(UnknownNameError, match="carried"):
+        motion(robot, normative_gait(), "caried")
