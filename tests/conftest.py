@@ -22,3 +22,8 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip("needs the gait data in ../shared/data, which a plain clone does not have")
     return folder
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Quick tests first: those that need a browser come last."""
+    items.sort(key=lambda item: "browser" in item.path.parts)
