@@ -17,7 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import DescriptionError
-from exo_pin.viewer.protocol import Command, Material, Shape, box, cylinder, draw, place, sphere
+from exo_pin.viewer import solids
+from exo_pin.viewer.protocol import Command, Material, draw, mesh, place
+from exo_pin.viewer.solids import Solid
 
 Array = NDArray[np.float64]
 
@@ -127,17 +129,23 @@ class _Nesting:
 
     def link(self, name: str, path: str) -> None:
         self.links[name] = path
-        for k, visual in enumerate(self.elements[name].findall("visual")):
-            self.picture(visual, f"{path}/look/{k}")
+        self.pictures(self.elements[name], f"{path}/look")
         for joint in self.children[name]:
             self.joint(joint, path)
 
-    def picture(self, visual: ET.Element, path: str) -> None:
-        shape = _shape(visual.find("geometry"))
-        if shape is None:
-            self.skipped += 1
-            return
-        self.commands += [draw(path, shape, self.material(visual)), place(path, pose(visual.find("origin")))]
+    def pictures(self, link: ET.Element, path: str) -> None:
+        """One mesh per material."""
+        looks: dict[Material, list[Solid]] = defaultdict(list)
+        for visual in link.findall("visual"):
+            solid = _solid(visual.find("geometry"))
+            if solid is None:
+                self.skipped += 1
+            else:
+                looks[self.material(visual)].append(solid.placed(pose(visual.find("origin"))))
+        for k, (material, parts) in enumerate(looks.items()):
+            whole = solids.joined(parts)
+            shape = mesh(whole.vertices, whole.faces, whole.normals)
+            self.commands.append(draw(f"{path}/{k}", shape, material))
 
     def joint(self, joint: ET.Element, path: str) -> None:
         child, name = _end(joint, "child"), joint.get("name", "")
@@ -162,15 +170,15 @@ class _Nesting:
         return Material(own or self.colors.get(name, GREY), roughness, metalness)
 
 
-def _shape(geometry: ET.Element | None) -> Shape | None:
+def _solid(geometry: ET.Element | None) -> Solid | None:
     if geometry is None:
         return None
     if (found := geometry.find("box")) is not None:
-        return box(_numbers(found.get("size", "")))
+        return solids.box(_numbers(found.get("size", "")))
     if (found := geometry.find("cylinder")) is not None:
-        return cylinder(float(found.get("radius", 0)), float(found.get("length", 0)))
+        return solids.cylinder(float(found.get("radius", 0)), float(found.get("length", 0)))
     if (found := geometry.find("sphere")) is not None:
-        return sphere(float(found.get("radius", 0)))
+        return solids.sphere(float(found.get("radius", 0)))
     return None
 
 

@@ -20,7 +20,15 @@ Command = dict[str, Any]
 Array = NDArray[np.float64]
 
 _SEGMENTS = 40
-_FLOAT32, _UINT32 = 0x17, 0x16  # msgpack extension types of three.js's typed arrays
+_ARRAYS = {
+    "float32": ("Float32Array", 0x17),
+    "uint32": ("Uint32Array", 0x16),
+    "uint16": ("Uint16Array", 0x14),
+}
+"""What meshcat calls an array type, and its msgpack extension type."""
+
+_GRAIN = 2.0**-15
+"""Vertices are rounded to this [m] (0.03 mm), normals to 2^-7: short numbers compress to half."""
 _UPRIGHT = [1.0, 0, 0, 0, 0, 0, 1.0, 0, 0, -1.0, 0, 0, 0, 0, 0, 1.0]
 """Turns three.js's cylinder, whose axis is y, to the URDF's z (column by column)."""
 
@@ -92,10 +100,10 @@ def sphere(radius: float) -> Shape:
 
 def mesh(vertices: ArrayLike, faces: ArrayLike, normals: ArrayLike | None = None) -> Shape:
     """Triangles: vertices `(v, 3)` [m], faces `(f, 3)`, normals `(v, 3)` (smooth ones are made if absent)."""
-    attributes = {"position": _packed(np.asarray(vertices, dtype="<f4"))}
+    attributes = {"position": _packed(np.round(np.asarray(vertices) / _GRAIN) * _GRAIN, "<f4")}
     if normals is not None:
-        attributes["normal"] = _packed(np.asarray(normals, dtype="<f4"))
-    index = _packed(np.asarray(faces, dtype="<u4").reshape(-1, 1))
+        attributes["normal"] = _packed(np.round(np.asarray(normals) * 128) / 128, "<f4")
+    index = _packed(np.reshape(faces, (-1, 1)), "<u2" if len(np.asarray(vertices)) < 65_536 else "<u4")
     return Shape({"type": "BufferGeometry", "data": {"attributes": attributes, "index": index}})
 
 
@@ -106,7 +114,7 @@ def draw(path: str, shape: Shape, material: Material, *, order: int = 0) -> Comm
 
 def lines(path: str, points: ArrayLike, color: Sequence[float], opacity: float) -> Command:
     """Separate thin lines: points `(2 k, 3)`, two a line [m]."""
-    position = {"position": _packed(np.asarray(points, dtype="<f4"))}
+    position = {"position": _packed(np.asarray(points), "<f4")}
     shape = Shape({"type": "BufferGeometry", "data": {"attributes": position}})
     look = {"color": hexadecimal(color), "opacity": opacity, "transparent": True}
     return _object(path, "LineSegments", shape, {"type": "LineBasicMaterial", **look}, {})
@@ -145,9 +153,10 @@ def _object(path: str, kind: str, shape: Shape, material: Command, extra: Comman
     }
 
 
-def _packed(rows: NDArray[Any]) -> Command:
+def _packed(rows: NDArray[Any], kind: str) -> Command:
     import umsgpack  # comes with meshcat
 
-    name, code = ("Uint32Array", _UINT32) if rows.dtype.kind == "u" else ("Float32Array", _FLOAT32)
-    data = umsgpack.Ext(code, np.ascontiguousarray(rows).tobytes())
+    rows = np.ascontiguousarray(rows, dtype=kind)
+    name, code = _ARRAYS[rows.dtype.name]
+    data = umsgpack.Ext(code, rows.tobytes())
     return {"itemSize": rows.shape[1], "type": name, "array": data, "normalized": False}

@@ -18,8 +18,7 @@ def server(scene):
 def test_the_live_page_plays_and_asks_only_its_own_server(browser, server):
     browser.open(server.url)
     start = browser.evaluate("exo.clock.time")
-    browser.evaluate("new Promise(done => setTimeout(done, 300))")
-    assert browser.evaluate("exo.clock.time") != start
+    browser.wait(f"exo.clock.time !== {start}")
     assert server.clients == 1
     assert browser.console == []
     assert set(browser.requests) == {server.url, f"ws://127.0.0.1:{server.port}/live", "data:,"} - (

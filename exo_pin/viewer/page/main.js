@@ -13,6 +13,7 @@ async function main() {
   player.apply();
   player.controls.show(player);
   if (player.stage) player.stage.draw();
+  player.clock.play(player.clock.playing); // time counts from the first picture on
   requestAnimationFrame((now) => player.frame(now));
   window.exo = player; // the page's own API: pictures, films and tests drive it
   window.exo.firstPicture = performance.now();
