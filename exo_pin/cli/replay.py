@@ -12,7 +12,9 @@ from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
 
 if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
     from exo_pin.crosscheck import Recovery
+    from exo_pin.gait import Gait
     from exo_pin.robot import Robot
     from exo_pin.viewer import Scene
 
@@ -53,31 +55,30 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError(f"--speed is {args.speed:g}; 0.1 .. 2 is accepted")
     if not 0 <= args.port <= 65535:
         raise DescriptionError(f"--port is {args.port}; 0 .. 65535 is accepted (0: any free one)")
-    scene = _scene(args)
-    if args.html:
-        from exo_pin import viewer
+    body = options.body_from(args)
+    gait = options.gait_from(args, body)
+    if not args.html:
+        return _serve(args, body, gait)
+    from exo_pin import viewer
 
-        text = viewer.html(scene)
-        write_text(args.html, text)
-        print(f"{args.html}: {len(text.encode()) / 1e6:.1f} MB, opens in any browser without a network")
-        return 0
-    return _serve(scene, args)
+    text = viewer.html(_scene(args, body, gait))
+    write_text(args.html, text)
+    print(f"{args.html}: {len(text.encode()) / 1e6:.1f} MB, opens in any browser without a network")
+    return 0
 
 
-def _scene(args: argparse.Namespace) -> Scene:
+def _scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     from exo_pin import crosscheck, viewer
     from exo_pin.robot import load_robot
 
-    body = options.body_from(args)
     robot = load_robot(body, hip_order=args.hip_order)
-    gait, note = options.with_events(robot, options.gait_from(args, body))
+    gait, note = options.with_events(robot, gait)
     recovery = crosscheck.recover(robot, gait)
     name = Path(args.gait).name
     _print(robot, recovery, name)
     notes = [line for line in (gait.source, note) if line]
-    return viewer.scene(
-        robot, recovery.gait, reference=gait, title=f"{name} - exo_pin", notes=notes, speed=args.speed
-    )
+    title = f"{name} - exo_pin"
+    return viewer.scene(robot, recovery.gait, reference=gait, title=title, notes=notes, speed=args.speed)
 
 
 def _print(robot: Robot, recovery: Recovery, name: str) -> None:
@@ -108,7 +109,7 @@ def _degrees(low: float, high: float) -> str:
     return f"{show.fixed(degrees(low))} .. {show.fixed(degrees(high))} deg"
 
 
-def _serve(scene: Scene, args: argparse.Namespace) -> int:
+def _serve(args: argparse.Namespace, body: Body, gait: Gait) -> int:
     """Block until Ctrl-C or SIGTERM, then leave nothing behind."""
     import signal
     import threading
@@ -118,10 +119,10 @@ def _serve(scene: Scene, args: argparse.Namespace) -> int:
     done = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: done.set())
-    with viewer.serve(
-        scene, host=args.host, port=args.port, open_browser=not args.no_open and _display()
-    ) as server:
-        if server.port != args.port and args.port:
+    opens = not args.no_open and _display()
+    with viewer.serve(host=args.host, port=args.port, open_browser=opens) as server:
+        server.show(_scene(args, body, gait))  # the browser opens while this is computed
+        if args.port and server.port != args.port:
             print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
         if not server.loopback:
             print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
