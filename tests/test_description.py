@@ -84,7 +84,8 @@ def test_pinocchio_reads_it_without_a_word(urdf, capfd):
     import pinocchio as pin
 
     model = pin.buildModelFromXML(urdf)
-    pin.buildGeomFromUrdfString(model, urdf, pin.GeometryType.VISUAL)
+    for kind in (pin.GeometryType.VISUAL, pin.GeometryType.COLLISION):
+        pin.buildGeomFromUrdfString(model, urdf, kind)
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")
 
