@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.ik import batch_dls, chain, closed_form
+from exo_pin.ik import nearly as start
 from exo_pin.ik.ideal import IdealLeg
 from exo_pin.ik.leg import Leg
 from exo_pin.ik.problem import Problem
@@ -34,6 +35,18 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
             sheet.q[part, column] = q[j]
 
 
+def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
+    """Write starts for a calibrated leg from the nearest ideal one; they count as not reached yet."""
+    goal = task.goals[f]
+    assert goal.R is not None  # as above
+    for a in range(0, task.n, CHUNK):
+        part = slice(a, a + CHUNK)
+        q = start.angles(leg, ideal, *chain.components(goal.R[part], goal.p[part, 0]))
+        for j, column in enumerate(leg.columns):
+            sheet.q[part, column] = q[j]
+    sheet.errors[:, :, f] = np.inf
+
+
 def descent(
     task: Problem, f: int, leg: Leg, settings: Dls, sheet: Sheet, *, seed: Array | None = None
 ) -> None:
@@ -48,7 +61,7 @@ def descent(
     if not len(rest):
         return
     begin = sheet.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
-    near = np.asarray(~(sheet.slack[rest, f] < 0.0))
+    near = np.asarray(~(sheet.slack[rest, f] < -leg.doubt))
     own = weighted(settings, goal.weight[0, 0], goal.rotation_weight)
     answer = batch_dls.answers(leg, goal.R[rest], goal.p[rest, 0], begin, own, reachable=near)
     sheet.q[np.ix_(rest, leg.columns)] = answer.q.T

@@ -6,7 +6,9 @@ form, for samples that a closed form could not answer, and for seeds of one's ow
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +22,9 @@ from exo_pin.ik.starts import starts
 Array = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
 CHUNK = 1000
+KNEE = 3
+KICK = 0.1
+"""How far the knee is bent to leave a saddle near the straight leg [rad]."""
 _FLOOR = 1e-15  # keeps the normal equations definite at a singular pose
 _STUCK = 1e-11  # a step this small changes nothing any more [rad]
 _CALMER, _STRONGER = 0.25, 4.0
@@ -54,15 +59,27 @@ def answers(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls, *, reachab
         reachable: Where a restart is worth trying.
     """
     out = _descend(leg, R, p, seed, settings)
-    for start in starts(leg.lower, leg.upper, settings.restarts):
+    for start in _starts(leg, settings.restarts):
         stuck = np.flatnonzero(~out.reached(settings.tolerance) & reachable)
         if not len(stuck):
             break
-        again = _descend(leg, R[stuck], p[stuck], np.tile(start[:, None], len(stuck)), settings)
+        again = _descend(leg, R[stuck], p[stuck], start(out.q[:, stuck]), settings)
         out.steps[stuck] += again.steps
         good = again.reached(settings.tolerance)
         out.take(stuck[good], Batch(again.q[:, good], again.errors[:, good], again.steps[good]))
     return out
+
+
+def _starts(leg: Leg, count: int) -> Iterator[Callable[[Array], Array]]:
+    """Starts made from where samples got stuck: the knee bent a little either way, then elsewhere."""
+    for bend in (KICK, -KICK)[:count]:
+        yield partial(np.add, bend * (np.arange(6) == KNEE)[:, None])
+    for start in starts(leg.lower, leg.upper, count - 2):
+        yield partial(_everywhere, start)
+
+
+def _everywhere(start: Array, q: Array) -> Array:
+    return np.tile(start[:, None], q.shape[1])
 
 
 def _descend(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls) -> Batch:

@@ -56,6 +56,14 @@ class Leg:
         return np.asarray(self.tip[:3, :3].T @ (self.ankle - self.tip[:3, 3]))
 
     @cached_property
+    def doubt(self) -> float:
+        """How far the reach may be off because the axes do not meet as an ideal leg's [m]."""
+        apart = [np.linalg.norm(np.cross(self.axes[j], self.hip - self.points[j])) for j in range(3)]
+        apart += [np.linalg.norm(np.cross(self.axes[j], self.ankle - self.points[j])) for j in (4, 5)]
+        skew = np.linalg.norm(np.cross(self.axes[3], self.axes[4])) * self.reach
+        return float(2.0 * sum(apart) + skew) + 1e-6
+
+    @cached_property
     def reach(self) -> float:
         """Largest distance from the hip centre to the ankle within the knee's limits [m]."""
         axis, point = self.axes[3], self.points[3]

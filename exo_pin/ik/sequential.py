@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.ik.dls import best_try
+from exo_pin.ik.leg import leg
 from exo_pin.ik.limb import Limb
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.settings import Dls
@@ -15,7 +16,9 @@ def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
     """Write the answers for one limb."""
     goals, places = task.goals_of(limb), task.places_of(limb)
     data = limb.model.createData()
-    short = np.asarray((sheet.slack[:, places] < 0.0).any(axis=1))
+    legs = [leg(task.robot, name) for name in limb.frames]
+    doubt = [0.0 if chain is None else chain.doubt for chain in legs]
+    short = np.asarray((sheet.slack[:, places] < np.negative(doubt)).any(axis=1))
     own = task.seed.ndim == 2
     seed = limb.middle if own else task.seed[limb.q]
     for k in range(task.n):

@@ -43,7 +43,7 @@ def auto(task: Problem, settings: Auto) -> Track:
         if own is None or near is None:
             _iterate(task, limb, f, own, dls, sheet)
             continue
-        batch.formula(task, f, own, near, sheet)
+        (batch.formula if exact else batch.nearly)(task, f, own, near, sheet)
         batch.descent(task, f, own, dls, sheet)
     return sheet.track(task, settings.tolerance)
 
