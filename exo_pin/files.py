@@ -1,4 +1,4 @@
-"""Text files in and out: a size cap when reading, never a half-written file when writing."""
+"""Files in and out: a size cap when reading, never a half-written file when writing."""
 
 from __future__ import annotations
 
@@ -19,6 +19,21 @@ def read_lines(path: str | Path) -> list[str]:
     Raises:
         FormatError: If it is no file, cannot be read, is too large, or is not text.
     """
+    return read_text(path).split("\n")
+
+
+def read_text(path: str | Path) -> str:
+    """A UTF-8 text file with Unix line ends; errors as in `read_lines`."""
+    path = Path(path)
+    return _decoded(path, read_bytes(path)).replace("\r\n", "\n").replace("\r", "\n")
+
+
+def read_bytes(path: str | Path) -> bytes:
+    """A whole file.
+
+    Raises:
+        FormatError: If it is no file, cannot be read, or is larger than `LARGEST_FILE`.
+    """
     path = Path(path)
     try:
         if not path.exists():
@@ -31,7 +46,7 @@ def read_lines(path: str | Path) -> list[str]:
         raise FormatError(path, f"cannot be read: {_reason(error)}") from error
     if len(data) > LARGEST_FILE:
         raise FormatError(path, f"larger than {LARGEST_FILE // 2**20} MiB; split or resample the recording")
-    return _decoded(path, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    return data
 
 
 def _decoded(path: Path, data: bytes) -> str:
@@ -45,7 +60,16 @@ def _decoded(path: Path, data: bytes) -> str:
 
 
 def write_text(path: str | Path, text: str) -> None:
-    """Write UTF-8 text: first to a temporary name in the same folder, then renamed, so all or nothing.
+    """Write UTF-8 text, all or nothing; errors as in `write_bytes`."""
+    try:
+        data = text.encode("utf-8")
+    except UnicodeEncodeError as error:  # half a character, which no file can hold
+        raise FormatError(path, f"cannot be written: {error}") from error
+    write_bytes(path, data)
+
+
+def write_bytes(path: str | Path, data: bytes) -> None:
+    """Write a file: first to a temporary name in the same folder, then renamed, so all or nothing.
 
     A link is followed; what is no plain file (a terminal, a pipe, /dev/null) is written to directly.
 
@@ -55,7 +79,6 @@ def write_text(path: str | Path, text: str) -> None:
     shown = Path(path)
     try:
         target = Path(os.path.realpath(shown))
-        data = text.encode("utf-8")
         if len(data) > LARGEST_FILE:  # nobody could load it again
             raise ValueError(f"larger than {LARGEST_FILE // 2**20} MiB; resample or split the recording")
         if target.exists() and not target.is_file() and not target.is_dir():

@@ -191,7 +191,7 @@ def test_what_is_no_text_file_is_refused(tmp_path):
 
 
 def test_a_preset_of_opensim_signs_is_refused_for_our_own_format(saved):
-    with pytest.raises(FormatError, match="for OpenSim files"):
+    with pytest.raises(FormatError, match="no header line with the mapped columns"):
         load_gait(saved[0], preset="opensim-gait2392")
 
 
@@ -258,7 +258,9 @@ def test_what_cannot_be_written_is_refused(walk, tmp_path):
         save_gait(walk, tmp_path / "dir.csv")
 
 
-@pytest.mark.parametrize("suffix", sorted(FORMATS))
+@pytest.mark.parametrize(
+    "suffix", [suffix for suffix, entry in FORMATS.items() if entry.base and entry.write]
+)
 def test_every_format_brings_back_the_walk(walk, tmp_path, suffix):
     for gait in (walk, Gait(walk.time + 0.4, walk.q, source="still pelvis")):
         save_gait(gait, tmp_path / f"walk{suffix}")

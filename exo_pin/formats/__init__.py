@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import gait_csv, opensim
+from exo_pin.formats import gait_csv, gait_npz, mapped, opensim, trajectory
 from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import PRESETS
+from exo_pin.formats.reading import Reading
 from exo_pin.gait import Gait
 
-__all__ = ["FORMATS", "PRESETS", "Format", "Poses", "load_gait", "load_poses", "save_gait", "save_poses"]
+__all__ = [
+    "FORMATS",
+    "PRESETS",
+    "Format",
+    "Poses",
+    "Reading",
+    "load_gait",
+    "load_poses",
+    "save_gait",
+    "save_poses",
+]
 
 
 class Format(NamedTuple):
@@ -22,38 +33,57 @@ class Format(NamedTuple):
     Attributes:
         name: What people call it.
         suffixes: File name endings, in lower case.
-        read: Path and the name of a preset of signs (or None) to gait.
-        write: Gait and path.
+        read: Path and what the user says of the file to gait.
+        write: Gait and path, or None where the format is only read.
+        base: Whether the pelvis's motion is kept.
     """
 
     name: str
     suffixes: tuple[str, ...]
-    read: Callable[[Path, str | None], Gait]
-    write: Callable[[Gait, Path], None]
+    read: Callable[[Path, Reading], Gait]
+    write: Callable[[Gait, Path], None] | None
+    base: bool
 
 
 _ALL = (
-    Format("exo_pin CSV", (".csv",), gait_csv.read_gait, gait_csv.write_gait),
-    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait),
+    Format(
+        "exo_pin CSV, or any CSV with a mapping", (".csv",), gait_csv.read_gait, gait_csv.write_gait, True
+    ),
+    Format("table with a mapping", (".tsv", ".txt"), mapped.read_gait, None, False),
+    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait, True),
+    Format("NumPy archive", (".npz",), gait_npz.read_gait, gait_npz.write_gait, True),
+    Format(
+        "ROS JointTrajectory, YAML", (".yaml", ".yml"), trajectory.read_yaml, trajectory.write_yaml, False
+    ),
+    Format("ROS JointTrajectory, JSON", (".json",), trajectory.read_json, trajectory.write_json, False),
 )
 
 FORMATS = MappingProxyType({suffix: entry for entry in _ALL for suffix in entry.suffixes})
 """File name ending -> format."""
 
 
-def load_gait(path: str | Path, *, preset: str | None = None) -> Gait:
+def load_gait(
+    path: str | Path,
+    *,
+    preset: str | None = None,
+    mapping: Mapping[str, str] = MappingProxyType({}),
+    units: str | None = None,
+) -> Gait:
     """Read a walk from a file; its ending tells the format.
 
     Args:
         path: A file in one of `FORMATS`, at most 128 MiB.
-        preset: The sign convention of an OpenSim file, one of `PRESETS`; None: find out or refuse.
+        preset: The sign convention, one of `PRESETS`; None: find out or refuse.
+        mapping: The file's column -> our joint (or `time`), for tables and trajectories with names of their
+            own. `-column` turns the sign, a number instead of a column holds the joint there.
+        units: `"deg"` or `"rad"`, where a table's column names do not say.
 
     Raises:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
-        UnknownNameError: There is no such preset.
+        UnknownNameError: There is no such preset, joint or unit.
     """
     path = Path(path)
-    return _format(path).read(path, preset)
+    return _format(path, FORMATS).read(path, Reading(preset, mapping, units))
 
 
 def save_gait(gait: Gait, path: str | Path) -> None:
@@ -63,12 +93,14 @@ def save_gait(gait: Gait, path: str | Path) -> None:
         FormatError: The ending is unknown or the file cannot be written.
     """
     path = Path(path)
-    _format(path).write(gait, path)
+    write = _format(path, {suffix: entry for suffix, entry in FORMATS.items() if entry.write}).write
+    assert write is not None  # the formats that cannot be written are left out
+    write(gait, path)
 
 
-def _format(path: Path) -> Format:
-    if path.suffix.lower() not in FORMATS:
+def _format(path: Path, known: Mapping[str, Format]) -> Format:
+    if path.suffix.lower() not in known:
         raise FormatError(
-            path, f"unknown kind of file {path.suffix!r}; a gait file ends in {', '.join(FORMATS)}"
+            path, f"unknown kind of file {path.suffix!r}; a gait file ends in {', '.join(known)}"
         )
-    return FORMATS[path.suffix.lower()]
+    return known[path.suffix.lower()]

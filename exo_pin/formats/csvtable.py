@@ -65,5 +65,6 @@ def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: i
         if name in known:
             continue
         close = difflib.get_close_matches(name[:80], known, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"accepted: {', '.join(known)}"
+        foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: its column = our joint)"
+        hint = f"did you mean {close[0]!r}?" if close else foreign
         raise FormatError(path, f"unknown column {name[:80]!r}; {hint}", line=line)

@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.errors import FormatError
+from exo_pin.formats import mapped
 from exo_pin.formats.csvtable import read_csv, write_csv
 from exo_pin.formats.notes import Notes, read, to_gait
 from exo_pin.formats.posecolumns import pose_names, pose_values, read_poses
+from exo_pin.formats.reading import Reading
 from exo_pin.gait import Gait
 
 TIME = "time_s"
@@ -18,14 +19,16 @@ ANGLES = tuple(f"{joint}_deg" for joint in JOINTS)
 TITLE = "A walk: joint angles [deg]; the pelvis's pose in the world [m, unit quaternion] where it moves."
 
 
-def read_gait(path: Path, preset: str | None = None) -> Gait:
-    """Read a gait from our CSV.
+def read_gait(path: Path, reading: Reading) -> Gait:
+    """Read a gait from our CSV, or from anybody's where a mapping or another preset names its columns.
 
     Raises:
         FormatError: If the file is not such a table, or its numbers are no walk; with file, line and reason.
+        UnknownNameError: The mapping names no joint of ours, or there is no such preset.
     """
-    if preset is not None:
-        raise FormatError(path, f"preset {preset!r} is for OpenSim files; the signs of this format are fixed")
+    if reading.mapping or reading.preset not in (None, "exo_pin"):
+        return mapped.read_gait(path, reading)
+    reading.refuse(path, "units", why="its columns end in _deg; map the columns of a foreign table")
     table, groups, comments = read_csv(path, (TIME, *ANGLES), {"pelvis": pose_names("pelvis")})
     notes = read(path, comments)
     base = read_poses(table, "pelvis") if groups else None

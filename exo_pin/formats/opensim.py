@@ -12,7 +12,8 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import FormatError
 from exo_pin.formats.notes import Notes, read, to_gait, to_lines
 from exo_pin.formats.pelvis import from_opensim, to_opensim
-from exo_pin.formats.presets import PRESETS, Preset, inferred, preset
+from exo_pin.formats.presets import OPENSIM, PRESETS, Preset, inferred, preset
+from exo_pin.formats.reading import Reading
 from exo_pin.formats.storage import Storage, read_storage, write_storage
 from exo_pin.formats.table import Array, Table
 from exo_pin.gait import Gait
@@ -40,21 +41,25 @@ TRANSLATIONS = ("pelvis_tx", "pelvis_ty", "pelvis_tz")
 WRITTEN = PRESETS["opensim-rajagopal"]
 """Our own files have the knee positive in flexion."""
 
+MID_HIP = WRITTEN.mid_hip or (0.0, 0.0, 0.0)
 
-def read_gait(path: Path, name: str | None = None) -> Gait:
+
+def read_gait(path: Path, reading: Reading) -> Gait:
     """Read joint coordinates; the pelvis's motion, if there, becomes the base.
 
-    The knee's sign comes from the preset `name`, else from our own header line, else from the angles where
-    at least 90 % of the excursion lies on one side; `source` then tells so. OpenSim's axes (x forward, y up,
-    z right) become ours, and the base's origin is put midway between the hips with the *generic* model's
-    offset (gait2392: (-0.0707, -0.0661, 0) m in the pelvis). Toes, trunk and arms are left out.
+    The knee's sign comes from the preset, if one is named, else from our own header line, else from the
+    angles where at least 90 % of the excursion lies on one side; `source` then tells so. OpenSim's axes (x
+    forward, y up, z right) become ours, and the base's origin is put midway between the hips with the
+    *generic* model's offset (gait2392: (-0.0707, -0.0661, 0) m in the pelvis). Toes, trunk and arms are left
+    out.
 
     Raises:
         FormatError: With file, line and reason: forces, velocities, missing coordinates, no `inDegrees`,
             or a knee whose sign is not clear.
         UnknownNameError: There is no such preset.
     """
-    chosen = None if name is None else preset(name)
+    reading.refuse(path, "mapping", "units", why="its names and its header tell")
+    chosen = None if reading.preset is None else preset(reading.preset, OPENSIM)
     storage = read_storage(path)
     table = _coordinates(storage)
     time, degrees = table.times(TIME), _in_degrees(storage)
@@ -72,7 +77,7 @@ def write_gait(gait: Gait, path: Path) -> None:
     """Write coordinates in degrees, knee positive in flexion, with events and source in header comments."""
     names, parts = [TIME], [gait.time[:, None]]
     if gait.base is not None:
-        angles, translation = to_opensim(gait.base, WRITTEN.mid_hip)
+        angles, translation = to_opensim(gait.base, MID_HIP)
         names += [*ANGLES, *TRANSLATIONS]
         parts += [np.degrees(angles), translation]
     remarks = [
@@ -127,20 +132,20 @@ def _in_degrees(storage: Storage) -> bool:
 def _sign(storage: Storage, table: Table, degrees: bool) -> tuple[Preset, str]:
     """Whose signs the file has, and how that is known."""
     for note in storage.notes:
-        if note.key == "preset" and note.value in PRESETS:
+        if note.key == "preset" and note.value in OPENSIM:
             return PRESETS[note.value], "its header says so"
     found = inferred(table.angles(KNEES, degrees=degrees))
     if found is None:
         raise FormatError(
             table.path,
             "the sign of the knee is not clear: knee_angle_l and _r bend less than 15 degrees or lie on both "
-            f"sides of 0; name the model with a preset: {', '.join(PRESETS)}",
+            f"sides of 0; name the model with a preset: {', '.join(OPENSIM)}",
         )
     return found[0], f"inferred: {100 * found[1]:.0f} % of its excursion"
 
 
 def _base(table: Table, degrees: bool, chosen: Preset) -> Array | None:
-    if ANGLES[0] not in table.names:
+    if ANGLES[0] not in table.names or chosen.mid_hip is None:
         return None
     angles = table.columns(ANGLES)
     angles = np.radians(angles) if degrees else angles

@@ -1,0 +1,124 @@
+"""Anybody's table: mapped columns, told units, turned signs, held joints; what nobody says is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.formats import PRESETS, load_gait
+from exo_pin.gait import normative_gait
+
+SAGITTAL = {
+    "HipR": "right_hip_flexion",
+    "HipL": "left_hip_flexion",
+    "KneeR": "right_knee_flexion",
+    "KneeL": "left_knee_flexion",
+    "0": ",".join(j for j in JOINTS if not j.endswith(("hip_flexion", "knee_flexion"))),
+}
+HEADER = ["t", "HipR", "note", "KneeR", "HipL", "KneeL"]
+ROWS = [["0", "10.5", "a", "5", "-3", "60"], ["0.5", "11", "", "6", "-4", "61"]]
+EXACT = 1e-12  # [rad]
+
+
+def table(separator=",", header=HEADER, rows=ROWS, above=()):
+    return "\n".join([*above, separator.join(header), *(separator.join(row) for row in rows), ""])
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "lab.csv"
+
+
+def column(gait, joint):
+    return np.degrees(gait.q[:, JOINTS.index(joint)])
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_mapped_columns_become_joints_whatever_separates_them(path, separator):
+    path.write_text(table(separator, above=["Laboratory X", "measured; by, somebody"]))
+    gait = load_gait(path, mapping=SAGITTAL, units="deg")
+    np.testing.assert_allclose(column(gait, "right_hip_flexion"), [10.5, 11], atol=EXACT)
+    np.testing.assert_allclose(column(gait, "left_knee_flexion"), [60, 61], atol=EXACT)
+    assert not gait.q[:, JOINTS.index("left_hip_rotation")].any()
+    np.testing.assert_array_equal(gait.time, [0, 0.5])
+    assert gait.source == "lab.csv, as mapped"
+
+
+def test_decimal_commas_and_a_line_of_units_are_understood(path):
+    rows = [
+        ["s", "deg", "", "deg", "deg", "deg"],
+        ["0,0", "10,5", "a", "5", "-3", "60"],
+        ["0,5", *ROWS[1][1:]],
+    ]
+    path.write_text(table(";", rows=rows))
+    gait = load_gait(path, mapping=SAGITTAL, units="deg")
+    np.testing.assert_allclose(column(gait, "right_hip_flexion"), [10.5, 11], atol=EXACT)
+
+
+def test_a_minus_turns_the_sign_and_radians_stay(path):
+    path.write_text(table(rows=[["0", "1", "", "-0.5", "0.1", "0.2"], ["1", "1", "", "-0.6", "0.1", "0.2"]]))
+    mapping = {("-KneeR" if c == "KneeR" else c): joint for c, joint in SAGITTAL.items()}
+    gait = load_gait(path, mapping=mapping, units="rad")
+    np.testing.assert_allclose(gait.q[:, JOINTS.index("right_knee_flexion")], [0.5, 0.6], atol=EXACT)
+
+
+def test_units_in_the_names_are_believed_and_their_absence_is_refused(path):
+    named = [f"{name} [deg]" if name[0] in "HK" else name for name in HEADER]
+    path.write_text(table(header=named))
+    gait = load_gait(path, mapping=SAGITTAL)
+    np.testing.assert_allclose(column(gait, "left_knee_flexion"), [60, 61], atol=EXACT)
+    path.write_text(table())
+    with pytest.raises(FormatError, match="nothing says whether angles are deg or rad"):
+        load_gait(path, mapping=SAGITTAL)
+    with pytest.raises(UnknownNameError, match="unit of angles 'grad'"):
+        load_gait(path, mapping=SAGITTAL, units="grad")
+
+
+@pytest.mark.parametrize(
+    ("change", "match"),
+    [
+        ({"KneeX": "left_knee_flexion"}, "no column 'KneeX'; the file has"),
+        ({"KneeL": "right_knee_flexion"}, "no column is mapped to left_knee_flexion"),
+        ({"note": "left_knee_flexion"}, "left_knee_flexion|note has a gap|expected a number"),
+        ({"200": "left_knee_flexion"}, "more than half a turn"),
+    ],
+)
+def test_what_does_not_fit_is_named(path, change, match):
+    path.write_text(table())
+    mapping = {c: joint for c, joint in SAGITTAL.items() if joint not in change.values() and c not in change}
+    with pytest.raises(FormatError, match=match):
+        load_gait(path, mapping=mapping | change, units="deg")
+
+
+def test_unknown_joints_and_gaps_are_refused_with_their_place(path):
+    path.write_text(table(rows=[*ROWS, ["1", "", "", "6", "-4", "61"]]))
+    with pytest.raises(UnknownNameError, match="did you mean 'left_knee_flexion'"):
+        load_gait(path, mapping=SAGITTAL | {"KneeL": "left_knee_flexoin"}, units="deg")
+    with pytest.raises(FormatError, match="HipR has a gap") as caught:
+        load_gait(path, mapping=SAGITTAL, units="deg")
+    assert caught.value.line == 4
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_every_preset_reads_a_table_with_its_names_and_signs(path, name):
+    walk = normative_gait("free", samples=17)
+    preset = PRESETS[name]
+    columns = {joint: column for column, joint in preset.mapping.items()}
+    names = ["time", *(columns[joint].lstrip("-") for joint in JOINTS)]
+    signs = np.array([-1 if columns[joint].startswith("-") else 1 for joint in JOINTS])
+    values = np.column_stack([walk.time, signs * walk.q])
+    path = path.with_suffix(".tsv")
+    path.write_text(table("\t", names, [[repr(x) for x in row] for row in values.tolist()]))
+    gait = load_gait(path, preset=name, units="rad")
+    np.testing.assert_allclose(gait.q, walk.q, atol=EXACT)
+
+
+def test_our_own_columns_need_no_mapping_in_a_tsv(path):
+    walk = normative_gait("free", samples=17)
+    path = path.with_suffix(".tsv")
+    names = ["time_s", *(f"{joint}_deg" for joint in JOINTS)]
+    values = np.column_stack([walk.time, np.degrees(walk.q)])
+    path.write_text(table("\t", names, [[repr(x) for x in row] for row in values.tolist()]))
+    np.testing.assert_allclose(load_gait(path).q, walk.q, atol=EXACT)
