@@ -8,7 +8,8 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import gait_csv, gait_npz, mapped, opensim, trajectory
+from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, mapped, opensim, trajectory, trc
+from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
@@ -16,11 +17,15 @@ from exo_pin.gait import Gait
 
 __all__ = [
     "FORMATS",
+    "MARKER_FORMATS",
     "PRESETS",
     "Format",
+    "Markers",
+    "Plate",
     "Poses",
     "Reading",
     "load_gait",
+    "load_markers",
     "load_poses",
     "save_gait",
     "save_poses",
@@ -55,11 +60,17 @@ _ALL = (
     Format(
         "ROS JointTrajectory, YAML", (".yaml", ".yml"), trajectory.read_yaml, trajectory.write_yaml, False
     ),
+    Format("C3D model angles (Plug-in Gait)", (".c3d",), c3d.read_gait, c3dwrite.write_gait, True),
     Format("ROS JointTrajectory, JSON", (".json",), trajectory.read_json, trajectory.write_json, False),
 )
 
 FORMATS = MappingProxyType({suffix: entry for entry in _ALL for suffix in entry.suffixes})
 """File name ending -> format."""
+
+MARKER_FORMATS: Mapping[str, Callable[[Path], Markers]] = MappingProxyType(
+    {".c3d": c3d.read_markers, ".trc": trc.read_markers}
+)
+"""File name ending -> reader of a marker trial."""
 
 
 def load_gait(
@@ -83,7 +94,22 @@ def load_gait(
         UnknownNameError: There is no such preset, joint or unit.
     """
     path = Path(path)
+    if path.suffix.lower() in MARKER_FORMATS and path.suffix.lower() not in FORMATS:
+        raise FormatError(path, "holds markers, not angles; exo_pin.markers makes a walk of them")
     return _format(path, FORMATS).read(path, Reading(preset, mapping, units))
+
+
+def load_markers(path: str | Path) -> Markers:
+    """Read a marker trial (.trc, .c3d).
+
+    Raises:
+        FormatError: The file cannot be read; with file, reason and, in texts, line.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in MARKER_FORMATS:
+        known = ", ".join(MARKER_FORMATS)
+        raise FormatError(path, f"unknown kind of file {path.suffix!r}; a marker trial ends in {known}")
+    return MARKER_FORMATS[path.suffix.lower()](path)
 
 
 def save_gait(gait: Gait, path: str | Path) -> None:

@@ -1,0 +1,93 @@
+"""The child process in which ezc3d reads a file: if it crashes, hangs or swells, nobody else does.
+
+Run by `c3d.py` as a script of its own: it imports nothing of this package, so it starts quickly.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+
+import numpy as np
+
+TEXTS = {
+    "labels": ("POINT", "LABELS"),
+    "angles": ("POINT", "ANGLES"),
+    "forces": ("POINT", "FORCES"),
+    "moments": ("POINT", "MOMENTS"),
+    "powers": ("POINT", "POWERS"),
+    "scalars": ("POINT", "SCALARS"),
+    "units": ("POINT", "UNITS"),
+    "angle_units": ("POINT", "ANGLE_UNITS"),
+    "y_screen": ("POINT", "Y_SCREEN"),
+    "event_labels": ("EVENT", "LABELS"),
+    "event_contexts": ("EVENT", "CONTEXTS"),
+}
+"""Array -> parameter of texts; those with more than 255 texts go on in LABELS2, LABELS3 ..."""
+
+LABELS = 40
+"""Continuations of a parameter that are looked for."""
+
+
+def limit(megabytes: int, seconds: int) -> None:
+    """No more memory and time than this, where the system can promise it."""
+    import resource
+
+    for what, amount in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, seconds)):
+        with contextlib.suppress(ValueError, OSError):
+            resource.setrlimit(what, (amount, amount))
+
+
+def arrays(path: str) -> dict[str, np.ndarray]:
+    """Everything of the file that the parent may want."""
+    import ezc3d
+
+    file = ezc3d.c3d(path)
+    parameters = file["parameters"]
+    out = {name: np.array(_texts(parameters, *place), dtype=str) for name, place in TEXTS.items()}
+    out["points"] = file["data"]["points"][:3]
+    times = np.atleast_2d(parameters.get("EVENT", {}).get("TIMES", {}).get("value", np.zeros((2, 0))))
+    out["event_times"] = np.asarray(times, dtype=float)
+    rate = parameters.get("ANALOG", {}).get("RATE", {}).get("value", [0.0])
+    out["analog_rate"] = np.array(float(rate[0]) if len(rate) else 0.0)
+    return out
+
+
+def platforms(path: str) -> dict[str, np.ndarray]:
+    """Force plates; a file whose plates ezc3d does not understand is read without them."""
+    import ezc3d
+
+    out = {}
+    with contextlib.suppress(Exception):  # ezc3d raises what it likes for plates of unknown type
+        plates = ezc3d.c3d(path, extract_forceplat_data=True)["data"]["platform"]
+        for k, plate in enumerate(plates):
+            for name in ("force", "center_of_pressure", "Tz"):
+                out[f"plate_{k}_{name}"] = np.asarray(plate[name], dtype=float)
+            out[f"plate_{k}_units"] = np.array([plate[f"unit_{x}"] for x in ("force", "moment", "position")])
+    return out
+
+
+def _texts(parameters, group: str, name: str) -> list[str]:  # type: ignore[no-untyped-def]  # ezc3d has no types
+    entries = parameters.get(group, {})
+    names = [name, *(f"{name}{k}" for k in range(2, LABELS))]
+    return [str(text) for key in names if key in entries for text in entries[key]["value"]]
+
+
+def main() -> None:
+    """Arguments: file, megabytes, seconds. Writes a NumPy archive to standard output."""
+    path, megabytes, seconds = sys.argv[1:]
+    pipe = os.dup(1)
+    os.dup2(2, 1)  # whatever ezc3d prints is not the answer
+    limit(int(megabytes), int(seconds))
+    answer = arrays(path)
+    answer |= platforms(path)
+    out = io.BytesIO()
+    np.savez(out, allow_pickle=False, **answer)
+    with os.fdopen(pipe, "wb") as file:
+        file.write(out.getbuffer())
+
+
+if __name__ == "__main__":
+    main()

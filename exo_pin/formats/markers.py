@@ -1,0 +1,140 @@
+"""A trial of a motion-capture laboratory: markers, model angles, events and force plates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.gait import Event
+from exo_pin.gait.checks import check_time, frozen
+
+Array = NDArray[np.float64]
+
+UPS = ("+x", "+y", "+z", "-x", "-y", "-z")
+"""What can be up in a laboratory."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """What one force plate measured, in the axes of its trial.
+
+    Attributes:
+        name: What the file calls it.
+        time: `(m,)` [s], on the trial's time axis.
+        force: `(m, 3)` ground reaction force on the foot [N].
+        point: `(m, 3)` where it acts [m]; meaningless while nothing stands on the plate.
+        moment: `(m, 3)` free moment [N m] at that point.
+    """
+
+    name: str
+    time: Array
+    force: Array
+    point: Array
+    moment: Array
+
+    def __post_init__(self) -> None:
+        for name in ("time", "force", "point", "moment"):
+            object.__setattr__(self, name, frozen(getattr(self, name), f"{self.name}: {name}"))
+        for name in ("force", "point", "moment"):
+            if getattr(self, name).shape != (len(self.time), 3):
+                raise GaitError(f"{self.name}: {name} has shape {getattr(self, name).shape}, expected (m, 3)")
+
+
+@dataclass(frozen=True, eq=False)
+class Markers:
+    """Paths of markers in space.
+
+    Attributes:
+        time: `(n,)` strictly increasing [s]; the first frame need not be at 0.
+        names: The k markers.
+        position: `(n, k, 3)` [m]; NaN where a marker was not seen.
+        up: Which of the laboratory's axes points up, one of `UPS`, or "" where the file does not say.
+        angles: Model angles by the file's names, `(n, 3)` [rad] each; NaN where there are none.
+        events: Foot contacts that the file states.
+        plates: Force plates.
+        source: Where the numbers come from, in words.
+
+    Raises:
+        GaitError: Shapes, time or names are unusable.
+    """
+
+    time: Array
+    names: tuple[str, ...]
+    position: Array
+    up: str = ""
+    angles: Mapping[str, Array] = field(default_factory=dict)
+    events: tuple[Event, ...] = ()
+    plates: tuple[Plate, ...] = ()
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__  # the dataclass is frozen for everyone else
+        put(self, "time", frozen(self.time, "time"))
+        check_time(self.time, periodic=False)
+        put(self, "names", tuple(self.names))
+        put(self, "position", frozen(self.position, "position"))
+        n, k = len(self.time), len(self.names)
+        if self.position.shape != (n, k, 3):
+            raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")
+        if len(set(self.names)) < k:
+            raise GaitError("a marker occurs more than once")
+        if np.isinf(self.position).any():
+            raise GaitError("a marker is at infinity; expected metres, or NaN where it was not seen")
+        if self.up not in ("", *UPS):
+            raise UnknownNameError("axis", self.up, UPS)
+        put(self, "angles", MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
+        for name, values in self.angles.items():
+            if values.shape != (n, 3):
+                raise GaitError(f"{name} has shape {values.shape}, expected ({n}, 3)")
+
+    def __len__(self) -> int:
+        """Number of frames n."""
+        return len(self.time)
+
+    def of(self, name: str) -> Array:
+        """`(n, 3)` path of one marker [m].
+
+        Raises:
+            UnknownNameError: There is no such marker.
+        """
+        if name not in self.names:
+            raise UnknownNameError("marker", name, self.names)
+        return np.asarray(self.position[:, self.names.index(name)])
+
+    def turned(self, R: ArrayLike) -> Markers:
+        """The same trial in other axes: every vector times `R (3, 3)`; z is up then."""
+        R = np.asarray(R, dtype=float)
+        plates = tuple(
+            Plate(p.name, p.time, p.force @ R.T, p.point @ R.T, p.moment @ R.T) for p in self.plates
+        )
+        position = self.position @ R.T
+        return Markers(self.time, self.names, position, "+z", self.angles, self.events, plates, self.source)
+
+
+def to_z_up(up: str) -> Array:
+    """`(3, 3)` the rotation that carries a laboratory's axes to ones with z up, x staying where it can.
+
+    Raises:
+        UnknownNameError: There is no such axis.
+    """
+    if up not in UPS:
+        raise UnknownNameError("axis", up, UPS)
+    axis = np.zeros(3)
+    axis["xyz".index(up[1])] = 1.0 if up[0] == "+" else -1.0
+    forward = np.array([0.0, 1.0, 0.0]) if up[1] == "x" else np.array([1.0, 0.0, 0.0])
+    return np.stack([forward, np.cross(axis, forward), axis])
+
+
+def unique(names: Iterable[str]) -> dict[str, int]:
+    """Name -> place of its first use, without a subject's prefix (`Anna:LASI`) and without empty names."""
+    places: dict[str, int] = {}
+    for k, name in enumerate(names):
+        plain = name.rpartition(":")[2].strip()
+        if plain and plain not in places:
+            places[plain] = k
+    return places

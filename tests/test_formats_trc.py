@@ -1,0 +1,101 @@
+"""Marker files: metres, gaps, honest headers; what is wrong is named with its line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from exo_pin.errors import FormatError, GaitError, UnknownNameError
+from exo_pin.formats import Markers, load_gait, load_markers
+from exo_pin.formats.markers import UPS, to_z_up
+
+NAMES = ["Anna:LASI", "RASI"]
+EXACT = 1e-15
+
+
+def trc(names=NAMES, frames=3, unit="mm", n=None, k=None, cell=lambda i, j: f"{i * 10 + j}"):
+    head = ["PathFileType\t4\t(X/Y/Z)\twalk.trc", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits"]
+    head += [f"60\t60\t{frames if n is None else n}\t{len(names) if k is None else k}\t{unit}"]
+    head += ["Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t", "\t\tX1\tY1\tZ1\tX2\tY2\tZ2", ""]
+    rows = [
+        "\t".join([str(i + 1), str(i / 60), *(cell(i, j) for j in range(3 * len(names)))])
+        for i in range(frames)
+    ]
+    return "\n".join([*head, *rows, ""])
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "walk.trc"
+
+
+def refused(path, text, match, line=None):
+    path.write_text(text)
+    with pytest.raises(FormatError, match=match) as caught:
+        load_markers(path)
+    assert caught.value.line == line
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)])
+def test_positions_are_metres_and_prefixes_are_dropped(path, unit, scale):
+    path.write_text(trc(unit=unit))
+    trial = load_markers(path)
+    assert trial.names == ("LASI", "RASI")
+    np.testing.assert_allclose(trial.of("RASI")[1], scale * np.array([13, 14, 15]), atol=EXACT)
+    np.testing.assert_allclose(trial.time, np.arange(3) / 60)
+    assert trial.up == ""
+
+
+def test_empty_cells_are_markers_that_were_not_seen(path):
+    path.write_text(trc(cell=lambda i, j: "" if (i, j // 3) in ((1, 0), (2, 1)) else "7"))
+    trial = load_markers(path)
+    gaps = np.isnan(trial.position).all(axis=2)
+    np.testing.assert_array_equal(gaps, [[False, False], [True, False], [False, True]])
+
+
+def test_what_the_header_says_must_be_true(path):
+    refused(path, trc(n=4), "header says 4 frames, the file has 3")
+    refused(path, trc(k=3), "header says 3 markers, the line of names has 2", 4)
+    refused(path, trc(n="9" * 14), "header says 9+ frames")
+    refused(path, trc(unit="inch"), "Units is 'inch'; mm, cm, m are accepted", 3)
+    refused(path, "Coordinates\nendheader\n", "first line is not 'PathFileType", 1)
+    refused(path, trc(frames=0), "no frames|shape")
+    refused(path, trc(cell=lambda i, j: "x" if i else "1"), "'x' is no number", 8)
+    refused(path, trc(cell=lambda i, j: "inf" if i else "1"), "inf is no coordinate", 8)
+    refused(path, trc(cell=lambda i, j: "1\t1"), "values, but 2 markers need 8", 7)
+
+
+def test_a_marker_file_is_no_gait_and_says_what_to_do(path):
+    path.write_text(trc())
+    with pytest.raises(FormatError, match=r"holds markers, not angles; exo_pin\.markers"):
+        load_gait(path)
+    with pytest.raises(FormatError, match="a marker trial ends in"):
+        load_markers(path.with_suffix(".csv"))
+
+
+@pytest.mark.parametrize("up", UPS)
+def test_any_vertical_becomes_z_by_a_rotation(up):
+    R = to_z_up(up)
+    axis = np.eye(3)["xyz".index(up[1])] * (1 if up[0] == "+" else -1)
+    np.testing.assert_array_equal(R @ axis, [0, 0, 1])
+    np.testing.assert_array_equal(R @ R.T, np.eye(3))
+    assert np.linalg.det(R) == pytest.approx(1)
+
+
+def test_markers_are_checked_at_the_door():
+    time, position = [0, 1], np.zeros((2, 1, 3))
+    with pytest.raises(GaitError, match="more than once"):
+        Markers(time, ("a", "a"), np.zeros((2, 2, 3)))
+    with pytest.raises(GaitError, match="position has shape"):
+        Markers(time, ("a", "b"), position)
+    with pytest.raises(UnknownNameError, match="axis"):
+        Markers(time, ("a",), position, up="z")
+    with pytest.raises(UnknownNameError, match="marker"):
+        Markers(time, ("a",), position).of("b")
+
+
+def test_the_recording_is_read(shared):
+    trial = load_markers(shared / "opensim_subject01_walk/subject01_walk1.trc")
+    assert (len(trial), len(trial.names)) == (151, 41)
+    assert trial.time[-1] == pytest.approx(2.5)
+    assert 0.9 < trial.of("R.ASIS")[:, 1].mean() < 1.2  # y is up [m]
