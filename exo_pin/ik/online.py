@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Sequence
+from math import dist
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,17 +14,16 @@ import pinocchio as pin
 from exo_pin.anatomy import FEET
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.dls import descend
-from exo_pin.ik.leg import Leg, leg
+from exo_pin.ik.leg import AXES, Leg, leg
 from exo_pin.ik.limb import limbs
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.single import Formula, formula
 from exo_pin.ik.solvers import NEARLY, closed_form_of
-from exo_pin.ik.targets import Goal
+from exo_pin.ik.targets import Goal, pose_array
 from exo_pin.robot import Robot
 
 asarray, forward = np.asarray, pin.framesForwardKinematics  # looked up once: this is the inner loop
 Array = npt.NDArray[np.float64]
-_PARTS = 3.0  # nine entries each within x make an angle of at most 2.1 x
 
 
 class Online:
@@ -64,40 +66,45 @@ class Online:
             DescriptionError: A frame is not on a leg of six joints, or a number is wrong.
             UnknownNameError: A frame is unknown.
         """
-        self._model, self._tolerance = robot.model, tolerance
-        self._settings = Dls(tolerance=tolerance, max_iterations=max_iterations, restarts=0)
+        self._tolerance = tolerance  # of the distance between matrices, never less than the angle
+        self._settings = Dls(tolerance=tolerance / 4, max_iterations=max_iterations, restarts=0)
         self.q = robot.neutral if q0 is None else np.array(q0, dtype=float)
         if self.q.shape != (robot.nq,):
             raise DescriptionError(f"q0 has shape {self.q.shape}; ({robot.nq},) is accepted")
         self.reached, self.slowed = False, False
         self._legs = [_own_leg(robot, name) for name in frames]
-        self._formulas = [_formula(own) for own in self._legs]
-        self._exact = None not in self._formulas
+        formulas = [_formula(own) for own in self._legs]
+        self._formulas = [solve for solve in formulas if solve is not None]
+        self._exact = len(self._formulas) == len(formulas)
         self._columns = _together(np.concatenate([own.columns for own in self._legs]))
         self._limbs = [limbs(robot, (name,), base_moves=False)[0] for name in frames]
         self._limb_data = {limb.frames[0]: limb.model.createData() for limb in self._limbs}
-        self._largest = None if dt is None else robot.velocity * dt
-        self._carry = None if base is None else robot.placement @ np.linalg.inv(np.asarray(base, dtype=float))
-        self._trial = self.q.copy()
-        self._data = robot.model.createData()
-        pin.framesForwardKinematics(robot.model, self._data, self.q)
-        tips = [self._data.oMf[robot.frame(name)] for name in frames]
-        self._tips = tips  # keeps the memory of the next two alive; they follow every call of `forward`
-        self._R, self._p = [tip.rotation for tip in tips], [tip.translation for tip in tips]
+        first = robot.nq - len(robot.joints)
+        speeds = robot.velocity[np.concatenate([own.columns for own in self._legs]) - first]
+        self._largest = None if dt is None else speeds * dt
+        self._carry = _carry(robot, self.q, base)
+        self._trial = self.q[self._columns].copy()
+        self._model = _bare_legs(self._legs)
+        self._data = self._model.createData()
+        self._tips = [self._data.oMf[self._model.getFrameId(name)] for name in frames]
+        self._memory = self._trial.data
+        self._pack = struct.Struct(f"{len(self._trial)}d").pack_into  # half the cost of an assignment
 
     def step(self, *targets: npt.ArrayLike) -> Array:
         """The next answer (nq,), for one target pose (4, 4) per frame in the order of `frames`."""
-        numbers: list[list[float]] = []
-        angles: list[float] = []
-        for solve, target in zip(self._formulas, targets, strict=True):
-            T = asarray(target, float)
-            flat = (T if self._carry is None else self._carry @ T).ravel().tolist()
-            numbers.append(flat)
-            if solve is not None:
-                angles += solve(flat)
+        if len(targets) != len(self._tips):
+            raise DescriptionError(f"{len(targets)} targets were given for {len(self._tips)} frames")
+        if self._carry is not None:
+            targets = tuple(self._carry @ asarray(T, float) for T in targets)
+        numbers = [asarray(T, float).ravel().tolist() for T in targets]
         if self._exact:
-            self._trial[self._columns] = angles
-        if (self._exact and self._good(numbers)) or self._iterate(numbers):
+            angles: list[float] = []
+            for solve, T in zip(self._formulas, numbers):  # noqa: B905  # counted above, and strict costs time
+                angles += solve(T)
+            self._pack(self._memory, 0, *angles)
+            if self._good(numbers):
+                return self._accept()
+        if self._iterate(numbers):
             return self._accept()
         self.reached = self.slowed = False
         return self.q
@@ -105,24 +112,8 @@ class Online:
     def _good(self, targets: list[list[float]]) -> bool:
         """Whether Pinocchio finds every frame at its target."""
         forward(self._model, self._data, self._trial)
-        tol = self._tolerance / _PARTS
-        for R, p, t in zip(self._R, self._p, targets, strict=True):
-            (a, b, c), (d, e, f), (g, h, i) = R.tolist()
-            x, y, z = p.tolist()
-            if not (
-                -tol < x - t[3] < tol
-                and -tol < y - t[7] < tol
-                and -tol < z - t[11] < tol
-                and -tol < a - t[0] < tol
-                and -tol < b - t[1] < tol
-                and -tol < c - t[2] < tol
-                and -tol < d - t[4] < tol
-                and -tol < e - t[5] < tol
-                and -tol < f - t[6] < tol
-                and -tol < g - t[8] < tol
-                and -tol < h - t[9] < tol
-                and -tol < i - t[10] < tol
-            ):
+        for tip, T in zip(self._tips, targets):  # noqa: B905  # counted in `step`, and strict costs time
+            if not dist(tip.homogeneous.ravel().tolist(), T) < self._tolerance:  # NaN is not good either
                 return False
         return True
 
@@ -130,20 +121,19 @@ class Online:
         """Take the trial, as far as the speed limits allow."""
         self.reached = True
         if self._largest is not None:
-            joints = slice(len(self.q) - len(self._largest), None)
-            step = self._trial[joints] - self.q[joints]
+            step = self._trial - self.q[self._columns]
             excess = float((np.abs(step) / self._largest).max())
             self.slowed = excess > 1.0
             if self.slowed:
-                self.q[joints] += step / excess
-                self._trial[:], self.reached = self.q, False
+                self.q[self._columns] += step / excess
+                self.reached = False
                 return self.q
-        self.q[:] = self._trial
+        self.q[self._columns] = self._trial
         return self.q
 
     def _iterate(self, targets: list[list[float]]) -> bool:
         """A few damped steps per leg: from the last answer, then from the nearest ideal leg's."""
-        for limb, own, target in zip(self._limbs, self._legs, targets, strict=True):
+        for j, (limb, own, target) in enumerate(zip(self._limbs, self._legs, targets, strict=True)):
             T = np.array(target).reshape(4, 4)
             if not np.isfinite(T).all():
                 return False
@@ -157,7 +147,7 @@ class Online:
                 answer = descend(limb, self._limb_data[own.frame], seed, [goal], 0, self._settings)
                 if answer.converged:
                     break
-            self._trial[own.columns] = answer.q
+            self._trial[AXES * j : AXES * (j + 1)] = answer.q
         return self._good(targets)
 
 
@@ -166,6 +156,29 @@ def _own_leg(robot: Robot, frame: str) -> Leg:
     if own is None:
         raise DescriptionError(f"{frame} is not on a leg of six revolute joints; use ik.solve for it")
     return own
+
+
+def _carry(robot: Robot, q: Array, base: npt.ArrayLike | None) -> Array | None:
+    """What takes a world target to the robot at its own placement; None where it stands there."""
+    if base is not None:
+        return np.asarray(robot.placement @ np.linalg.inv(pose_array("base", np.asarray(base)[None])[0]))
+    if robot.base == "floating":
+        return np.asarray(robot.placement @ pin.XYZQUATToSE3(q[:7]).inverse().homogeneous)
+    return None
+
+
+def _bare_legs(legs: Sequence[Leg]) -> Any:
+    """Pinocchio's model of nothing but the legs' joints and tips: half the cost of the whole robot's."""
+    model = pin.Model()
+    for own in legs:
+        parent, before = 0, np.zeros(3)
+        for j in range(AXES):
+            place = pin.SE3(np.eye(3), own.points[j] - before)
+            joint = pin.JointModelRevoluteUnaligned(own.axes[j])
+            parent, before = model.addJoint(parent, joint, place, f"{own.frame}_{j}"), own.points[j]
+        tip = pin.SE3(own.tip[:3, :3], own.tip[:3, 3] - before)
+        model.addFrame(pin.Frame(own.frame, parent, tip, pin.FrameType.OP_FRAME))
+    return model
 
 
 def _formula(own: Leg) -> Formula | None:
