@@ -11,7 +11,8 @@ from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
-from exo_pin.viewer.compiler import TRACE_POINTS, flat_poses
+from exo_pin.viewer.actor import flat_poses
+from exo_pin.viewer.world import TRACE_POINTS
 
 SINGLE = 2e-7  # float32 keeps seven digits of numbers near 1
 MILLIMETRE = 1e-3

@@ -17,7 +17,7 @@ from exo_pin.viewer import page
 from exo_pin.viewer.bundle import bundle
 
 HOSTILE = """</title><script>alert("1")</script>&'{{engine}}"""
-LARGEST = 1_500_000  # bytes of an offline page without wearer
+LARGEST = {False: 1_500_000, True: 2_000_000}  # bytes of an offline page without and with the wearer
 
 
 @pytest.fixture(scope="module")
@@ -55,8 +55,10 @@ def test_two_different_scenes_have_different_names(scene):
     assert len(ids) == 2
 
 
-def test_the_offline_page_is_small(scene):
-    assert len(viewer.html(scene).encode()) < LARGEST
+@pytest.mark.parametrize("wearer", [False, True])
+def test_the_offline_page_is_small(wearer):
+    scene = viewer.scene(load_robot(), normative_gait(), wearer=wearer)
+    assert len(viewer.html(scene).encode()) < LARGEST[wearer]
 
 
 def test_hostile_names_are_text(scene):
@@ -91,7 +93,7 @@ def test_the_engine_is_meshcats_own_and_its_licences_travel_with_it(scene):
     source = gzip.decompress(base64.b64decode(page.engine()))
     assert b"MeshCat" in source
     text = viewer.html(scene)
-    for name in ("Robin Deits", "Three.js Authors", "dat.gui"):
+    for name in ("Robin Deits", "Three.js Authors", "dat.gui", "LAAS-CNRS"):
         assert name in text
 
 

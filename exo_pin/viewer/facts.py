@@ -130,6 +130,7 @@ class Facts:
         boxes: `whole` and `feet`, for the cameras.
         follow: Whether the cameras go along with the pelvis.
         speed: Playback speed at first, 1 = as it happened.
+        twins: Nodes that show the same as another: (path, source).
         shadowless: Paths that cast no shadow.
         lights: Light name -> intensity without the studio's environment.
     """
@@ -150,6 +151,7 @@ class Facts:
     boxes: Mapping[str, Box]
     follow: bool
     speed: float
+    twins: tuple[tuple[str, str], ...]
     shadowless: tuple[str, ...]
     lights: Mapping[str, float]
 

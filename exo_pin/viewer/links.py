@@ -51,12 +51,14 @@ class Turn:
         path: The node that turns (or slides).
         axis: Unit axis in the joint's frame.
         kind: `"revolute"` or `"prismatic"`.
+        limits: Lower and upper limit [rad, m] for a slider in the page, or None: no slider.
     """
 
     name: str
     path: str
     axis: tuple[float, float, float]
     kind: str
+    limits: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,7 @@ class Linkage:
         root: Path of the root link's node; its pose is the base's pose.
         links: Link name -> path of the node that has the link's pose.
         turns: The moving joints, in the URDF's order.
+        looks: Nodes that hold the pictures, one a link.
         commands: What draws it.
         skipped: Number of visuals that are no primitives and are not drawn.
     """
@@ -74,16 +77,18 @@ class Linkage:
     root: str
     links: dict[str, str]
     turns: tuple[Turn, ...]
+    looks: tuple[str, ...]
     commands: tuple[Command, ...]
     skipped: int
 
 
-def linkage(urdf: str, root: str) -> Linkage:
+def linkage(urdf: str, root: str, *, paint: Material | None = None) -> Linkage:
     """Nest the links of a URDF below a path.
 
     Args:
         urdf: The URDF's text.
         root: Path of the node for the root link, e.g. `"/exo_pin/exo"`.
+        paint: Material for everything instead of the URDF's own.
 
     Raises:
         DescriptionError: The text is no URDF with one root link.
@@ -92,7 +97,7 @@ def linkage(urdf: str, root: str) -> Linkage:
         robot = ET.fromstring(urdf)
     except ET.ParseError as error:
         raise DescriptionError(f"the URDF cannot be read: {error}") from error
-    return _Nesting(robot).below(root)
+    return _Nesting(robot, paint).below(root)
 
 
 def pose(origin: ET.Element | None) -> Array:
@@ -107,8 +112,8 @@ def pose(origin: ET.Element | None) -> Array:
 class _Nesting:
     """Walks the tree of links once and collects nodes, joints and pictures."""
 
-    def __init__(self, robot: ET.Element) -> None:
-        self.robot = robot
+    def __init__(self, robot: ET.Element, paint: Material | None) -> None:
+        self.robot, self.paint = robot, paint
         self.colors = {m.get("name", ""): c for m in robot.findall("material") if (c := _rgba(m)) is not None}
         self.children: dict[str, list[ET.Element]] = defaultdict(list)
         for joint in robot.findall("joint"):
@@ -116,6 +121,7 @@ class _Nesting:
         self.elements = {link.get("name", ""): link for link in robot.findall("link")}
         self.links: dict[str, str] = {}
         self.turns: list[Turn] = []
+        self.looks: list[str] = []
         self.commands: list[Command] = []
         self.skipped = 0
 
@@ -125,7 +131,9 @@ class _Nesting:
         if len(roots) != 1:
             raise DescriptionError(f"the URDF must have one root link, not {len(roots)}: {', '.join(roots)}")
         self.link(roots[0], path)
-        return Linkage(path, self.links, tuple(self.turns), tuple(self.commands), self.skipped)
+        return Linkage(
+            path, self.links, tuple(self.turns), tuple(self.looks), tuple(self.commands), self.skipped
+        )
 
     def link(self, name: str, path: str) -> None:
         self.links[name] = path
@@ -142,6 +150,8 @@ class _Nesting:
                 self.skipped += 1
             else:
                 looks[self.material(visual)].append(solid.placed(pose(visual.find("origin"))))
+        if looks:
+            self.looks.append(path)
         for k, (material, parts) in enumerate(looks.items()):
             whole = solids.joined(parts)
             shape = mesh(whole.vertices, whole.faces, whole.normals)
@@ -163,6 +173,8 @@ class _Nesting:
         self.link(child, turn)
 
     def material(self, visual: ET.Element) -> Material:
+        if self.paint is not None:
+            return self.paint
         element = visual.find("material")
         name = "" if element is None else element.get("name", "")
         own = None if element is None else _rgba(element)

@@ -9,6 +9,7 @@ import json
 import re
 from functools import cache
 from importlib import resources
+from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -76,7 +77,7 @@ def engine() -> str:
 
 @cache
 def licences() -> str:
-    """The licences of meshcat's viewer and of all that is bundled in it."""
+    """The licences of meshcat's viewer, of all that is bundled in it, and of the wearer's figure."""
     folder = _meshcat()
     texts = ["meshcat", (folder / "LICENSE").read_text("utf-8")]
     texts.append((folder / "dist" / "main.min.js.LICENSE.txt").read_text("utf-8"))
@@ -85,7 +86,18 @@ def licences() -> str:
         f"{entry['name']} {entry['version']} ({entry['license']})\n{entry['licenseText']}"
         for entry in json.loads(listing.read_text("utf-8"))
     )
+    texts += _figure_licence()
     return "\n\n".join(text.strip() for text in texts)
+
+
+def _figure_licence() -> list[str]:
+    """The licence of example-robot-data, whose figure of a person may be in the page."""
+    try:
+        files = distribution("example-robot-data").files or []
+    except PackageNotFoundError:
+        return []
+    paths = [Path(str(file.locate())) for file in files if file.name.startswith("LICENSE")]
+    return ["example-robot-data (the wearer's figure)", *(path.read_text("utf-8") for path in paths)]
 
 
 def _meshcat() -> Path:

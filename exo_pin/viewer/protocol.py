@@ -112,6 +112,27 @@ def draw(path: str, shape: Shape, material: Material, *, order: int = 0) -> Comm
     return _object(path, "Mesh", shape, material.command(), {"renderOrder": order} if order else {})
 
 
+def translucent(path: str, shape: Shape, color: tuple[float, float, float, float]) -> Command:
+    """A see-through body of which only the outer skin shows.
+
+    The shape is drawn twice: first into the depth buffer alone, then in colour where it is nearest, so that
+    its inner parts and far sides stay hidden.
+    """
+    depth = {"type": "MeshBasicMaterial", "color": 0, "transparent": True, "colorWrite": False, "side": 0}
+    nearest = (("depthWrite", False), ("depthFunc", 3))  # three.js's "less or equal"
+    skin = Material(color, 0.8, 0.0, more=nearest).command()
+    name = _identifier(path)
+    ids = {"geometry": f"g{name}", "type": "Mesh"}
+    command = _object(path, "Group", shape, skin, {})
+    data = command["object"]
+    data["materials"].append({"uuid": f"d{name}", **depth})
+    data["object"]["children"] = [
+        {"uuid": f"a{name}", "material": f"d{name}", "renderOrder": 1, "castShadow": True, **ids},
+        {"uuid": f"b{name}", "material": f"m{name}", "renderOrder": 2, **ids},
+    ]
+    return command
+
+
 def lines(path: str, points: ArrayLike, color: Sequence[float], opacity: float) -> Command:
     """Separate thin lines: points `(2 k, 3)`, two a line [m]."""
     position = {"position": _packed(np.asarray(points), "<f4")}
@@ -139,7 +160,7 @@ def translation(x: float, y: float, z: float) -> Array:
 
 
 def _object(path: str, kind: str, shape: Shape, material: Command, extra: Command) -> Command:
-    name = f"{zlib.crc32(path.encode()):08x}"  # three.js wants identifiers: ours come from the path
+    name = _identifier(path)
     item = {"uuid": f"o{name}", "type": kind, "geometry": f"g{name}", "material": f"m{name}", **extra}
     return {
         "type": "set_object",
@@ -151,6 +172,11 @@ def _object(path: str, kind: str, shape: Shape, material: Command, extra: Comman
             "object": {**item, "matrix": list(shape.matrix)},
         },
     }
+
+
+def _identifier(path: str) -> str:
+    """What three.js wants every part to have: ours comes from the path, not from chance."""
+    return f"{zlib.crc32(path.encode()):08x}"
 
 
 def _packed(rows: NDArray[Any], kind: str) -> Command:

@@ -36,6 +36,7 @@ class Stage {
   load(header, commands) {
     if (this.viewer.scene_tree.children[ROOT]) this.viewer.delete_path([ROOT]);
     for (const command of commands) this.viewer.handle_command_bytearray(command);
+    for (const [path, source] of header.twins) this.copy(path, source);
     for (const path of header.shadowless) this.node(path).traverse((node) => (node.castShadow = false));
     if (this.quality === "low") this.simplify(header.lights);
   }
@@ -45,6 +46,13 @@ class Stage {
     for (const [name, intensity] of Object.entries(lights)) {
       this.viewer.set_property(["Lights", name, "<object>"], "intensity", intensity);
     }
+  }
+
+  /** Shows at a path what another node shows; geometry and material are shared. */
+  copy(path, source) {
+    const names = (text) => text.split("/").filter((name) => name);
+    const original = this.viewer.scene_tree.find([...names(source), "<object>"]).object;
+    this.viewer.set_object(names(path), original.clone());
   }
 
   node(path) {

@@ -1,0 +1,101 @@
+"""The figures on the stage: the exoskeleton, its ghost, its wearer, each with drawings and samples."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+from exo_pin.viewer.facts import Chain, Group
+from exo_pin.viewer.links import Linkage, linkage
+from exo_pin.viewer.motion import Motion, motion
+from exo_pin.viewer.protocol import Command, Material
+
+Array = NDArray[np.float64]
+
+GHOST = Material((0.36, 0.30, 0.55, 0.30), 0.6, 0.0, more=(("depthWrite", False),))
+"""A second motion is a translucent violet: neither leg's colour."""
+
+
+@dataclass(frozen=True, eq=False)
+class Actor:
+    """A figure that the page poses.
+
+    Attributes:
+        commands: What draws it.
+        chain: How it is posed; names its arrays.
+        arrays: Its samples, `(n, ...)`.
+        group: What switches it on and off.
+        twins: Nodes that show the same as another: (path, source).
+    """
+
+    commands: tuple[Command, ...]
+    chain: Chain
+    arrays: Mapping[str, Array]
+    group: Group
+    twins: tuple[tuple[str, str], ...] = ()
+
+
+def exoskeleton(robot: Robot, shown: Motion, tree: Linkage) -> Actor:
+    """The exoskeleton in the shown motion."""
+    limits = dict(
+        zip(robot.joints, zip(robot.lower.tolist(), robot.upper.tolist(), strict=True), strict=True)
+    )
+    turns = tuple(replace(turn, limits=limits.get(turn.name)) for turn in tree.turns)
+    chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
+    return Actor(tree.commands, chain, _samples(robot, shown, tree, ""), Group("Exoskeleton", tree.looks))
+
+
+def ghost(robot: Robot, gait: Gait, style: str, root: str, title: str) -> Actor:
+    """A second motion of the same exoskeleton, on the clock of the first (see `aligned`)."""
+    shown = motion(robot, gait, style)
+    tree = linkage(robot.urdf, root, paint=GHOST)
+    chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
+    return Actor(tree.commands, chain, _samples(robot, shown, tree, "ghost_"), Group(title, tree.looks))
+
+
+def aligned(gait: Gait, other: Gait) -> Gait:
+    """Another gait sampled on a gait's clock.
+
+    Cycles are laid over each other from left heel strike to left heel strike, whatever their durations;
+    recordings run side by side from their starts, the shorter one waiting at its end.
+    """
+    n = len(gait)
+    if gait.periodic and other.periodic:
+        fitted = other.slowed(gait.duration / other.duration).resampled(n)
+        shift = round(n * (_strike(gait) - _strike(other)))
+        base = None if fitted.base is None else np.roll(fitted.base, shift, axis=0)
+        return Gait(
+            gait.time, np.roll(fitted.q, shift, axis=0), base=base, periodic=True, source=other.source
+        )
+    step = gait.duration / (n if gait.periodic else n - 1)
+    even = other.resampled(max(round(other.duration / step) + 1, 2))
+    rows = np.minimum(np.arange(n), len(even) - 1)
+    base = None if even.base is None else even.base[rows]
+    return Gait(gait.time, even.q[rows], base=base, periodic=gait.periodic, source=other.source)
+
+
+def flat_poses(T: Array) -> Array:
+    """Poses `(n, 4, 4)` as `(n, 7)`: x y z [m], unit quaternion x y z w that never jumps to its negative."""
+    rows = np.array([pin.SE3ToXYZQUAT(pin.SE3(pose)) for pose in T])
+    turned = np.einsum("nk,nk->n", rows[1:, 3:], rows[:-1, 3:]) < 0
+    rows[1:, 3:] *= np.cumprod(np.where(turned, -1.0, 1.0))[:, None]
+    return rows
+
+
+def _samples(robot: Robot, shown: Motion, tree: Linkage, prefix: str) -> dict[str, Array]:
+    angles = dict(zip(robot.joints, shown.q.T, strict=True))
+    still = np.zeros(len(shown.time))
+    q = np.stack([angles.get(turn.name, still) for turn in tree.turns], axis=1)
+    return {f"{prefix}q": q, f"{prefix}base": flat_poses(shown.base)}
+
+
+def _strike(gait: Gait) -> float:
+    """Where in the cycle the left heel strikes, 0 to 1; 0 if nothing is known."""
+    times = [event.time for event in gait.events if (event.side, event.kind) == ("left", "heel_strike")]
+    return (times[0] - float(gait.time[0])) / gait.duration if times else 0.0

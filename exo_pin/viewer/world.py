@@ -1,0 +1,77 @@
+"""The world around the figures, fitted to the walk: belt, floor, paths, marks, and what the cameras frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+from exo_pin.viewer import furniture
+from exo_pin.viewer.facts import Box, Marks
+from exo_pin.viewer.links import Linkage
+from exo_pin.viewer.motion import Motion
+from exo_pin.viewer.protocol import Command
+
+Array = NDArray[np.float64]
+
+ROOT = "/exo_pin"
+"""Every node of ours hangs below this one."""
+
+TRACE_POINTS = 400
+"""A foot's path is drawn through at most this many points."""
+
+
+def world(robot: Robot, gait: Gait, shown: Motion, exo: Linkage) -> tuple[list[Command], Marks]:
+    """All drawings but the figures, and the nodes among them that the page moves."""
+    commands = furniture.studio()
+    belt, ground = None, 0.0
+    if not shown.support.overground:
+        mill = _treadmill(shown, gait)
+        commands += furniture.treadmill(f"{ROOT}/treadmill", mill)
+        belt, ground = furniture.belt(f"{ROOT}/treadmill", mill), -furniture.DECK
+    commands += furniture.floor(f"{ROOT}/floor", ground, float(np.abs(shown.base[:, :2, 3]).max()) + 4.0)
+    commands += furniture.centre_of_mass(f"{ROOT}/marks/com")
+    contact = {}
+    for k, side in enumerate(SIDES):
+        contact[side] = f"{exo.links[FEET[k]]}/contact/sole"
+        commands += furniture.contact_sole(contact[side], *_sole(robot, shown, side))
+        path, color = _thinned(shown.feet[:, k, :3, 3]), furniture.SIDE_COLORS[side]
+        commands.append(furniture.trace(f"{ROOT}/traces/{side}", path, color, closed=gait.periodic))
+    return commands, Marks(f"{ROOT}/marks/com/ball", f"{ROOT}/marks/com/disc", 0.003, contact, belt)
+
+
+def boxes(shown: Motion, above_hips: float) -> dict[str, Box]:
+    """What the cameras frame: the whole figure up to a height above the hips [m], and the feet."""
+    y, z = shown.base[0, 1:3, 3].tolist()
+    here = shown.corners[: 1 if shown.support.overground else len(shown.corners), :, 0]
+    low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
+    bottom, top = (0.0 if shown.support.overground else -furniture.DECK), z + above_hips
+    middle = (low + high) / 2
+    return {
+        "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),
+        "feet": Box((middle, y, 0.12), (high - low, 0.6, 0.4)),
+    }
+
+
+def _treadmill(shown: Motion, gait: Gait) -> furniture.Treadmill:
+    low, high = float(shown.corners[..., 0].min()), float(shown.corners[..., 0].max())
+    length = max(high - low + 0.75, 1.5)
+    return furniture.Treadmill((low + high) / 2 + 0.05, length, 0.0, shown.support.belt_speed, gait.duration)
+
+
+def _sole(robot: Robot, shown: Motion, side: str) -> tuple[tuple[float, float], tuple[float, float, float]]:
+    """Length and width of a foot's sole [m] and its middle, seen from the foot's frame."""
+    mine = [k for k, name in enumerate(CORNERS) if name.startswith(side)]
+    T = shown.feet[0, SIDES.index(side)]
+    corners = (shown.corners[0, mine] - T[:3, 3]) @ T[:3, :3]  # in the foot's own axes
+    heel, front = float(corners[:, 0].min()), float(corners[:, 0].max())
+    if robot.body is not None:  # the corners end at the ball of the foot, the plate at the toes
+        front = heel + robot.body.leg(side).foot_length
+    return (front - heel + 0.007, float(np.ptp(corners[:, 1])) + 0.009), ((heel + front) / 2, 0.0, 0.006)
+
+
+def _thinned(points: Array) -> Array:
+    step = -(-len(points) // TRACE_POINTS)
+    return points[::step]

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exo_pin import viewer
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.robot import load_robot
+from exo_pin.viewer.actor import aligned
+
+SAME = 1e-9  # resampling a band-limited cycle on its own samples changes rounding only
+
+
+@pytest.fixture(scope="module")
+def gait():
+    return normative_gait()
+
+
+def test_a_slower_cycle_is_laid_over_the_first(gait):
+    fitted = aligned(gait, gait.slowed(1.7))
+    assert fitted.q == pytest.approx(gait.q, abs=SAME)
+    assert np.array_equal(fitted.time, gait.time)
+
+
+def test_cycles_meet_at_the_left_heel_strike(gait):
+    shift = 30
+    events = tuple(replace(e, time=(e.time + gait.time[shift]) % gait.duration) for e in gait.events)
+    late = Gait(gait.time, np.roll(gait.q, shift, axis=0), events=events, periodic=True)
+    assert aligned(gait, late).q == pytest.approx(gait.q, abs=SAME)
+
+
+def test_a_shorter_recording_waits_at_its_end(gait):
+    first = Gait(np.arange(50) * 0.01, gait.q[:50])
+    short = Gait(np.arange(20) * 0.01, gait.q[:20])
+    fitted = aligned(first, short)
+    assert fitted.q[:20] == pytest.approx(short.q, abs=1e-6)
+    assert (fitted.q[20:] == fitted.q[-1]).all()
+
+
+def test_a_ghost_has_its_own_chain_and_switch(gait):
+    scene = viewer.scene(load_robot(), gait, compare=normative_gait("slow"), compare_title="slow")
+    ghost = next(chain for chain in scene.facts.chains if chain.name == "ghost")
+    assert scene.arrays["ghost_q"].shape == scene.arrays["q"].shape
+    assert not np.allclose(scene.arrays["ghost_q"], scene.arrays["q"])
+    assert "slow" in [group.title for group in scene.facts.groups]
+    assert scene.facts.reference == "slow"
+    exo = scene.facts.chains[0]
+    assert set(ghost.links) == set(exo.links)
+    assert not set(ghost.links.values()) & set(exo.links.values())
+
+
+def test_an_explicit_reference_keeps_the_dashes(gait):
+    facts = viewer.scene(
+        load_robot(), gait, compare=normative_gait("slow"), reference=gait, reference_title="measured"
+    ).facts
+    assert facts.reference == "measured"
