@@ -93,7 +93,7 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
             a microradian, are given to yourdfpy.
 
     Returns:
-        `recursion`, `dh` and `yourdfpy`: over every joint's link and both feet.
+        `recursion`, `dh` and `yourdfpy`: over every joint's link, locked joints too, and both feet.
 
     Raises:
         DescriptionError: The robot is not an exoskeleton of this package.
@@ -103,16 +103,21 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
     q = np.asarray(q, dtype=float).reshape(-1, robot.nq)
     few = q[np.unique(np.linspace(0, len(q) - 1, _SAMPLES).astype(int))]
     body, order = robot.body, robot.hip_order
+
+    def by(witness: Callable[..., dict[str, Array]], q: Array) -> dict[str, Array]:
+        angles = dict(zip(robot.joints, robot.angles(q).T, strict=True))
+        return dh.of_device(body, angles, hip_order=order, witness=witness)
+
     witnesses: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
-        "recursion": (q, lambda q: dh.recursion(body, q, hip_order=order)),
-        "dh": (q, lambda q: dh.modified_dh(body, q, hip_order=order)),
+        "recursion": (q, lambda q: by(dh.recursion, q)),
+        "dh": (q, lambda q: by(dh.modified_dh, q)),
         "yourdfpy": (np.round(few, _GRID), lambda q: _yourdfpy(robot, q)),
     }
     return {name: _difference(robot, q, witness(q)) for name, (q, witness) in witnesses.items()}
 
 
 def _difference(robot: Robot, q: Array, poses_of: dict[str, Array]) -> float:
-    """Largest difference in any entry of any pose, all relative to the pelvis."""
+    """Largest difference in any entry of any pose, all relative to the pelvis (or the stand it slides on)."""
     names = tuple(poses_of)
     ours = poses(robot, q, names, base=np.eye(4))
     return float(max(np.abs(poses_of[name] - ours[:, k]).max() for k, name in enumerate(names)))
@@ -123,13 +128,13 @@ def _yourdfpy(robot: Robot, q: Array) -> dict[str, Array]:
     import yourdfpy  # 0.5 s, needed here only
 
     scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
-    links = {joint: scene.joint_map[joint].child for joint in robot.joints}
+    links = {joint: scene.joint_map[joint].child for joint in (*robot.joints, *JOINTS)}
     links |= {foot: foot for foot in FEET}
     out = {name: np.empty((len(q), 4, 4)) for name in links}
     for k, row in enumerate(q):
         scene.update_cfg(dict(zip(robot.joints, row, strict=True)))
         for name, link in links.items():
-            out[name][k] = scene.get_transform(link, "pelvis")
+            out[name][k] = scene.get_transform(link, scene.base_link)
     return out
 
 

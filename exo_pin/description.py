@@ -26,6 +26,7 @@ _SIZES = [
     *(f"{side}_{name}" for side in SIDES for name, size in LEG_SIZES.items() if size.unit == "m"),
 ]
 """The sizes of a `Body` that xacro places."""
+_STRUCTURE = ("hip_order", "locked", "slides", "toes")
 
 
 def sources() -> Path:
@@ -38,13 +39,13 @@ def sources() -> Path:
 
 
 def arguments(
-    body: Body, *, device: str = "exo12", hip_order: str = "clinical", **overrides: str
+    body: Body, *, device: str | Device = "exo12", hip_order: str = "clinical", **overrides: str
 ) -> dict[str, str]:
     """Every xacro argument as text, in the order of urdf/arguments.xacro.
 
     Args:
         body: Sizes, masses and joint ranges.
-        device: Name of the device.
+        device: A device, its name, or a TOML file that holds one.
         hip_order: `"clinical"` or `"yaw_roll_pitch"`.
         **overrides: Single arguments, e.g. `left_thigh_link_mass="12.5"`.
 
@@ -55,10 +56,10 @@ def arguments(
     if hip_order not in HIP_ORDERS:
         raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
     found = devices.find(device)
-    values = {"hip_order": hip_order} | {name: _text(getattr(body, name)) for name in _SIZES}
-    for link, part in link_inertias(body).items():
+    values = _structure(found, hip_order) | {name: _text(getattr(body, name)) for name in _SIZES}
+    for link, part in link_inertias(body, toes=found.toes).items():
         values |= _inertial(link, part)
-    for joint in JOINTS:
+    for joint in (*JOINTS, *found.added):
         values |= _limits(body, found, joint)
     for name, value in overrides.items():
         if name not in values:
@@ -68,27 +69,28 @@ def arguments(
     return values
 
 
-def urdf(body: Body, *, device: str = "exo12", hip_order: str = "clinical", **overrides: str) -> str:
+def urdf(body: Body, *, device: str | Device = "exo12", hip_order: str = "clinical", **overrides: str) -> str:
     """The URDF text of the exoskeleton for this body: the same bytes for the same arguments everywhere.
 
     Arguments and errors are those of `arguments`.
     """
-    return expand(arguments(body, device=device, hip_order=hip_order, **overrides))
+    found = devices.find(device)
+    return expand(arguments(body, device=found, hip_order=hip_order, **overrides), name=found.name)
 
 
-def expand(values: Mapping[str, str]) -> str:
-    """Run xacro on the sources with these arguments.
+def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:
+    """Run xacro on the sources with these arguments; `name` becomes the robot's.
 
     Raises:
         DescriptionError: xacro refuses the sources.
     """
-    return _expand(tuple(values.items()))
+    return _expand(tuple(values.items()), name)
 
 
 @functools.lru_cache(
-    maxsize=16
+    maxsize=64
 )  # xacro takes about 0.2 s, and a session asks for the same body again and again
-def _expand(values: tuple[tuple[str, str], ...]) -> str:
+def _expand(values: tuple[tuple[str, str], ...], name: str) -> str:
     import xacro  # 30 ms that only a description needs
 
     noise = io.StringIO()  # xacro reports its errors on stderr before it raises
@@ -97,6 +99,7 @@ def _expand(values: tuple[tuple[str, str], ...]) -> str:
             document = xacro.process_file(str(sources() / _MAIN), mappings=dict(values))
     except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
         raise DescriptionError(f"xacro cannot expand {_MAIN}: {error}") from error
+    document.documentElement.setAttribute("name", name)  # xacro reads it before it knows the arguments
     text: str = document.documentElement.toprettyxml(
         indent="  "
     )  # the element: the banner holds a local path
@@ -113,9 +116,22 @@ def _inertial(link: str, part: Part) -> dict[str, str]:
     }
 
 
+def _structure(device: Device, hip_order: str) -> dict[str, str]:
+    """Which joints there are; lists of names, or "none"."""
+    return {
+        "hip_order": hip_order,
+        "locked": " ".join(device.locked) or "none",
+        "slides": " ".join(device.slides) or "none",
+        "toes": str(device.toes),
+    }
+
+
 def _limits(body: Body, device: Device, joint: str) -> dict[str, str]:
-    lower, upper = body.limits[joint]
-    actuator = device.actuators[joint.split("_", 1)[1]]
+    movement = devices.movement_of(joint)
+    lower, upper = device.range_of(joint, body.limits[joint]) if joint in JOINTS else device.ranges[movement]
+    actuator = device.actuators[movement]
+    if joint in device.locked:
+        actuator = actuator._replace(effort=0.0)  # what has no torque is drawn without a motor
     numbers = {"lower": lower, "upper": upper, "effort": actuator.effort, "velocity": actuator.velocity}
     return {f"{joint}_{name}": _text(value) for name, value in numbers.items()}
 
@@ -132,8 +148,8 @@ def _rounded(value: float) -> str:
 
 def _plausible(name: str, text: str, *, like: str) -> str:
     """An override as text, checked: sizes by their range, other numbers by being finite."""
-    if name == "hip_order":
-        raise DescriptionError("hip_order is given by name: clinical or yaw_roll_pitch")
+    if name in _STRUCTURE:
+        raise DescriptionError(f"{name} follows from the device and the hip order; it is not given alone")
     try:
         numbers = [float(part) for part in str(text).split()]
     except ValueError:

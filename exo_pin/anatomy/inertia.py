@@ -46,13 +46,37 @@ def total(parts: Iterable[Part]) -> Part:
     return Part(mass, centre, inertia)
 
 
-def link_inertias(body: Body) -> dict[str, Part]:
-    """Mass, centre and inertia of each link by link name: pelvis, then six links a leg."""
+def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Part]:
+    """Mass, centre and inertia of each link by link name: pelvis, then six links a leg.
+
+    Args:
+        body: Sizes and masses.
+        toes: Whether the foot plate is two links, `sole_plate` and in front of the ball `toe_plate`; the
+            wearer's foot then stays with the sole plate.
+    """
     links = {"pelvis": total([*_upper_body(body), _waist(body)])}
     for side, s in zip(SIDES, (1.0, -1.0), strict=True):
-        for name, parts in _leg(body, body.leg(side), s).items():
+        leg = body.leg(side)
+        for name, parts in _leg(body, leg, s).items():
             links[f"{side}_{name}"] = total(parts)
+        if toes:
+            back, front = _plates(body, leg)
+            worn = _wearer_leg(body, leg)["sole_plate"] if body.wearer else []
+            links |= {f"{side}_sole_plate": total([back, *worn]), f"{side}_toe_plate": front}
     return links
+
+
+def _plates(body: Body, leg: Leg) -> tuple[Part, Part]:
+    """The foot plate cut at the ball: behind it, seen from the ankle; in front of it, seen from the ball."""
+    share, toe = (leg.heel + leg.ball) / leg.foot_length, leg.foot_length - leg.heel - leg.ball
+    height = 0.006 - leg.ankle_height
+    back = _box(
+        share * body.foot_hardware,
+        ((leg.ball - leg.heel) / 2, 0.0, height),
+        (leg.heel + leg.ball, leg.foot_width, 0.012),
+    )
+    front = _box((1 - share) * body.foot_hardware, (toe / 2, 0.0, 0.006), (toe, leg.foot_width, 0.012))
+    return back, front
 
 
 def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Part]]:

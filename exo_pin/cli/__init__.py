@@ -20,6 +20,7 @@ COMMANDS = {
     "convert": "a gait from one file format to another",
     "body": "make a body file from a person's measures",
     "urdf": "the exoskeleton's URDF for a body",
+    "devices": "the exoskeletons and planar models to choose from",
     "dh": "the Denavit-Hartenberg table for a body",
 }
 """Each command lives in the module of its name: `configure(parser)` and `run(args) -> exit code`."""

@@ -15,10 +15,11 @@ from exo_pin.files import write_text
 _EXAMPLES = """examples:
   exo-pin urdf -o exo.urdf
   exo-pin urdf stature:=1.82 waist_width:=0.40 left_thigh:=0.43 -o exo.urdf
+  exo-pin urdf device:=lokomat -o lokomat.urdf
   exo-pin urdf hip_order:=yaw_roll_pitch left_knee_flexion_upper:=1.9
   exo-pin urdf --body patient.toml -o patient.urdf
 
-name:=value takes every size of `exo-pin body`, device, hip_order, and every argument of
+name:=value takes every size of `exo-pin body`, device (`exo-pin devices`), hip_order, and every argument of
 urdf/arguments.xacro (masses, inertias and limits of single links and joints, in SI units and rad)."""
 
 

@@ -3,11 +3,14 @@
 1. `recursion`: the paper's Eq. (1) to (6) over its family tree of links, Rodrigues' formula for each joint.
 2. `modified_dh`: Craig's modified Denavit-Hartenberg table of each leg.
 
+`of_device` takes either to a device with fewer or further joints.
+
 Both know only a `Body` and the meaning of the joint names. All frames are parallel to the pelvis at q = 0.
 """
 
 from exo_pin.dh.craig import Row, modified_dh, table
+from exo_pin.dh.device import of_device
 from exo_pin.dh.leg import chain
 from exo_pin.dh.recursion import Link, recursion, tree
 
-__all__ = ["Link", "Row", "chain", "modified_dh", "recursion", "table", "tree"]
+__all__ = ["Link", "Row", "chain", "modified_dh", "of_device", "recursion", "table", "tree"]

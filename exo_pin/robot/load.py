@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin import description
+from exo_pin import description, devices
 from exo_pin.anatomy import Body
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.robot.model import Robot
@@ -21,7 +21,7 @@ Array = npt.NDArray[np.float64]
 def load_robot(
     body: Body | None = None,
     *,
-    device: str = "exo12",
+    device: str | devices.Device = "exo12",
     hip_order: str = "clinical",
     base: str = "fixed",
 ) -> Robot:
@@ -29,19 +29,25 @@ def load_robot(
 
     Args:
         body: Sizes and masses; `Body.from_stature()` if left out.
-        device: Name of the device, one of `exo_pin.devices.DEVICES`.
+        device: One of `exo_pin.devices.DEVICES` by name, a TOML file that holds a device, or a record. Its
+            locked joints are fixed at zero; they are frames, not joints, of the robot.
         hip_order: `"clinical"` or `"yaw_roll_pitch"`.
-        base: `"fixed"`: the pelvis is held as in the paper; `"floating"`: it has six degrees of freedom.
+        base: `"fixed"`: the pelvis is held as in the paper (or slides on a stand, if the device has slides);
+            `"floating"`: it has six degrees of freedom, and the device's slides are left out.
 
     Raises:
         UnknownNameError: Device, hip order or base is unknown.
+        FormatError: The device's file is not accepted.
     """
     body = Body.from_stature() if body is None else body
-    text = description.urdf(body, device=device, hip_order=hip_order)
+    found = devices.find(device)
+    if base == "floating":
+        found = found.carried()
+    text = description.urdf(body, device=found, hip_order=hip_order)
     placement = np.eye(4)
     placement[2, 3] = body.leg_length
     robot = load_urdf(text, base=base, placement=placement)
-    return dataclasses.replace(robot, body=body, hip_order=hip_order)
+    return dataclasses.replace(robot, body=body, hip_order=hip_order, device=found)
 
 
 def load_urdf(

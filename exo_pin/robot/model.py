@@ -14,6 +14,7 @@ import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip import reorder
+from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
 
@@ -34,10 +35,12 @@ class Robot:
         upper: Upper joint limits (J,) [rad].
         velocity: Largest joint speeds (J,) [rad/s].
         effort: Largest joint torques (J,) [N m].
-        placement: T_world_pelvis (4, 4) at rest: the longer leg's sole is on the ground at q = 0.
+        placement: T_world_pelvis (4, 4) at rest: the longer leg's sole is on the ground at q = 0 (slides that
+            carry the pelvis are in q, so at q = 0 this is the stand's pose too).
         base: `"fixed"` or `"floating"`.
         body: The body it was made for; None for a URDF from elsewhere.
         hip_order: Order of the hip joints from the pelvis outwards.
+        device: The device it was made from; None for a URDF from elsewhere.
     """
 
     model: Any
@@ -51,6 +54,7 @@ class Robot:
     base: str = "fixed"
     body: Body | None = None
     hip_order: str = "clinical"
+    device: Device | None = None
 
     @property
     def name(self) -> str:
@@ -76,12 +80,12 @@ class Robot:
         return q
 
     def frame(self, name: str) -> int:
-        """Pinocchio's index of a link, point frame or joint.
+        """Pinocchio's index of a link, point frame or joint (a locked one too).
 
         Raises:
             UnknownNameError: Nothing has that name.
         """
-        for kind in (pin.FrameType.BODY, pin.FrameType.JOINT):
+        for kind in (pin.FrameType.BODY, pin.FrameType.JOINT, pin.FrameType.FIXED_JOINT):
             index = self.model.getFrameId(name, kind)
             if index < self.model.nframes:
                 return int(index)
@@ -144,26 +148,52 @@ class Robot:
     def from_gait(self, gait: Gait) -> Array:
         """The gait in this robot's own coordinates (n, nq): its joints, its hip order, its base.
 
+        Joints that the device locks are dropped; joints that the device adds stay at zero.
+
         Raises:
-            UnknownNameError: The robot lacks one of the gait's joints.
+            UnknownNameError: The robot has one of the gait's joints neither moving nor locked.
         """
         q = np.tile(self.neutral, (len(gait.q), 1))
         if self.base == "floating" and gait.base is not None:
             q[:, :_FREE] = [pin.SE3ToXYZQUAT(pin.SE3(T)) for T in gait.base]
-        q[:, [self.column(name) for name in JOINTS]] = _in_order(
-            gait.q, source="clinical", target=self.hip_order
-        )
+        mine, columns = self._columns
+        q[:, columns] = _in_order(gait.q, source="clinical", target=self.hip_order)[:, mine]
         return q
 
     def to_gait(self, q: npt.ArrayLike, like: Gait) -> Gait:
-        """The way back: configurations (n, nq) as a gait with time, events and (if held) base of `like`."""
-        columns = [self.column(name) for name in JOINTS]
+        """The way back: configurations (n, nq) as a gait with time, events and (if held) base of `like`.
+
+        Joints that the device locks are zero. Slides move the base: it is the pelvis's, not the stand's.
+        """
         q = np.asarray(q, dtype=float)
         base = like.base
         if self.base == "floating":
             base = np.array([pin.XYZQUATToSE3(x).homogeneous for x in q[:, :_FREE]])
-        clinical = _in_order(q[:, columns], source=self.hip_order, target="clinical")
+        elif any(slide in self.joints for slide in SLIDES):
+            base = (self.placement if base is None else base) @ self.slid(q)
+        mine, columns = self._columns
+        angles = np.zeros((len(q), len(JOINTS)))
+        angles[:, mine] = q[:, columns]
+        clinical = _in_order(angles, source=self.hip_order, target="clinical")
         return dataclasses.replace(like, q=clinical, base=base)
+
+    def slid(self, q: npt.ArrayLike) -> Array:
+        """T_stand_pelvis (..., 4, 4): where the slides of q (..., nq) have carried the pelvis."""
+        q = np.asarray(q, dtype=float)
+        T = np.tile(np.eye(4), (*q.shape[:-1], 1, 1))
+        for axis, slide in enumerate(SLIDES):
+            if slide in self.joints:
+                T[..., axis, 3] = q[..., self.column(slide)]
+        return T
+
+    @property
+    def _columns(self) -> tuple[list[int], list[int]]:
+        """The gait's columns that this robot has, and where they stand in q."""
+        for name in set(JOINTS) - set(self.joints):
+            if not self.model.existFrame(name, pin.FrameType.FIXED_JOINT):
+                raise UnknownNameError("joint", name, self.joints)
+        mine = [k for k, name in enumerate(JOINTS) if name in self.joints]
+        return mine, [self.column(JOINTS[k]) for k in mine]
 
 
 def _in_order(q: Array, *, source: str, target: str) -> Array:

@@ -1,0 +1,204 @@
+"""`Device`: one exoskeleton as a frozen record, checked when it is made."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.devices.choices import CHOSEN, RANGES, Actuator
+from exo_pin.errors import DescriptionError, UnknownNameError
+
+SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
+"""Slides that may carry the pelvis, from the stand outwards; the name is the positive direction."""
+
+TOES = ("left_toe_dorsiflexion", "right_toe_dorsiflexion")
+"""Joints across the balls of the feet, of devices whose soles end there; toes up is positive."""
+
+_CARRIED = ("held", "free")
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Device:
+    """One exoskeleton, or a planar model of a walker.
+
+    Every joint of `JOINTS` is driven, passive (it moves, without a motor) or locked at zero. A passive joint
+    is held at zero too unless the device is asked to let it go (`released`).
+
+    Attributes:
+        name: What `load_robot(device=...)` calls it: lower-case letters, digits and `_`.
+        title: What people call it.
+        joints: The joints that it drives, names of `JOINTS` in their order.
+        passive: Joints that move without a motor.
+        pelvis: How the device carries the pelvis: `"held"` still; `"free"`, with the person; or slides along
+            `SLIDES`, which move the pelvis upright and without turning it.
+        toes: Whether the soles end at the balls of the feet, with driven toes in front.
+        actuators: By movement (of `MOVEMENTS`, `SLIDES` or `"toe_dorsiflexion"`), the same left and right.
+        ranges: By movement, the device's own range (lower, upper) [rad] (slides: [m]); a joint's range is
+            what the device and the body both allow.
+        source: Where the joints and every number come from.
+        remarks: Where sources differ, and what the record leaves out.
+
+    Raises:
+        DescriptionError: The parts contradict each other, or a number is not plausible.
+        UnknownNameError: A joint or movement is unknown.
+    """
+
+    name: str
+    joints: tuple[str, ...]
+    source: str
+    title: str = ""
+    passive: tuple[str, ...] = ()
+    pelvis: str | tuple[str, ...] = "held"
+    toes: bool = False
+    actuators: Mapping[str, Actuator] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not _NAME.fullmatch(self.name):
+            raise DescriptionError(
+                f"device name {self.name!r}: lower-case letters, digits and _ are accepted"
+            )
+        for what in ("joints", "passive"):
+            object.__setattr__(self, what, _in_order(getattr(self, what)))
+        both = set(self.joints) & set(self.passive)
+        if both:
+            raise DescriptionError(f"device {self.name}: {min(both)} is driven and passive at once")
+        if not self.joints:
+            raise DescriptionError(f"device {self.name} drives no joint")
+        self._check_pelvis()
+        complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
+        object.__setattr__(self, "actuators", MappingProxyType(complete))
+        object.__setattr__(self, "ranges", MappingProxyType(_checked_ranges(self.ranges)))
+
+    def _check_pelvis(self) -> None:
+        if isinstance(self.pelvis, str):
+            if self.pelvis not in _CARRIED:
+                raise DescriptionError(f"device {self.name}: pelvis is {self.pelvis!r}; held, free or slides")
+            return
+        for name in self.pelvis:
+            if name not in SLIDES:
+                raise UnknownNameError("slide", name, SLIDES)
+        object.__setattr__(self, "pelvis", tuple(name for name in SLIDES if name in self.pelvis))
+
+    @property
+    def _movements(self) -> tuple[str, ...]:
+        extra = ("toe_dorsiflexion",) if self.toes else ()
+        return (*MOVEMENTS, *self.slides, *extra)
+
+    @property
+    def slides(self) -> tuple[str, ...]:
+        """The slides that carry the pelvis."""
+        return () if isinstance(self.pelvis, str) else self.pelvis
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Joints that the 12-joint exoskeleton does not have."""
+        return (*self.slides, *(TOES if self.toes else ()))
+
+    @property
+    def locked(self) -> tuple[str, ...]:
+        """Joints of `JOINTS` that stand at zero: neither driven nor released."""
+        return tuple(joint for joint in JOINTS if joint not in self.joints)
+
+    @property
+    def motors(self) -> int:
+        """Number of driven joints, slides and toes: what moves without torque does not count."""
+        return sum(self.actuators[movement_of(joint)].effort > 0 for joint in (*self.joints, *self.added))
+
+    def released(self) -> Device:
+        """The same device with its passive joints let go: they move, without torque."""
+        if not self.passive:
+            return self
+        free = {movement_of(joint) for joint in self.passive}
+        if free & {movement_of(joint) for joint in self.joints}:
+            raise DescriptionError(f"device {self.name}: driven on one side, passive on the other")
+        actuators = {
+            movement: actuator._replace(effort=0.0) if movement in free else actuator
+            for movement, actuator in self.actuators.items()
+        }
+        joints = (*self.joints, *self.passive)
+        return dataclasses.replace(self, joints=joints, passive=(), actuators=actuators)
+
+    def carried(self) -> Device:
+        """The same device on a pelvis that somebody else moves: without its slides."""
+        return dataclasses.replace(self, pelvis="free") if self.slides else self
+
+    def range_of(self, joint: str, own: tuple[float, float]) -> tuple[float, float]:
+        """What device and body (`own` range) both allow [rad].
+
+        Raises:
+            DescriptionError: They have nothing in common.
+        """
+        lower, upper = self.ranges.get(movement_of(joint), own)
+        both = max(lower, own[0]), min(upper, own[1])
+        if not both[0] < both[1]:
+            raise DescriptionError(
+                f"{joint}: the ranges of the device {self.name} and of the body do not meet"
+            )
+        return both
+
+
+def movement_of(joint: str) -> str:
+    """A joint's name without its side: `left_knee_flexion` -> `knee_flexion`."""
+    side, _, movement = joint.partition("_")
+    return movement if side in SIDES else joint
+
+
+def both(*movements: str) -> tuple[str, ...]:
+    """Joints of both sides, in the order of `JOINTS`.
+
+    Raises:
+        UnknownNameError: A movement is unknown.
+    """
+    for movement in movements:
+        if movement not in MOVEMENTS:
+            raise UnknownNameError("movement", movement, MOVEMENTS)
+    return tuple(joint for joint in JOINTS if movement_of(joint) in movements)
+
+
+def subset(movements: Iterable[str], *, name: str = "subset") -> Device:
+    """The 12-joint exoskeleton with only these movements driven on both sides, the others locked.
+
+    Raises:
+        UnknownNameError: A movement is unknown.
+        DescriptionError: None is given.
+    """
+    return Device(name=name, joints=both(*movements), source="A part of the 12 joints, for comparison.")
+
+
+def _in_order(joints: Iterable[str]) -> tuple[str, ...]:
+    given = tuple(joints)
+    for joint in given:
+        if joint not in JOINTS:
+            raise UnknownNameError("joint", joint, JOINTS)
+    return tuple(joint for joint in JOINTS if joint in given)
+
+
+def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
+    for name in given:
+        if name not in CHOSEN:
+            raise UnknownNameError("movement", name, CHOSEN)
+    actuator = Actuator(*map(float, given.get(movement, CHOSEN[movement])))
+    if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf):
+        raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
+    return actuator
+
+
+def _checked_ranges(given: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    known = {*MOVEMENTS, *RANGES}
+    ranges = dict(RANGES)
+    for name, pair in given.items():
+        if name not in known:
+            raise UnknownNameError("movement", name, sorted(known))
+        lower, upper = map(float, pair)
+        if not -math.pi <= lower < upper <= math.pi:
+            raise DescriptionError(f"range of {name}: lower < upper, within half a turn or 3 m, is accepted")
+        ranges[name] = (lower, upper)
+    return ranges

@@ -1,0 +1,157 @@
+"""The devices that the paper names, and their like: one record each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from exo_pin.anatomy.names import JOINTS
+from exo_pin.devices.choices import CHOSEN, Actuator
+from exo_pin.devices.record import Device, both
+from exo_pin.devices.userfile import load
+from exo_pin.errors import UnknownNameError
+
+_CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."
+_TRUNK_PITCH = "The trunk's pitch is left to the hips: it turns about the same axis as hip flexion."
+
+
+def _loose(*slides: str) -> Mapping[str, Actuator]:
+    """Slides without a motor."""
+    return {slide: CHOSEN[slide]._replace(effort=0.0) for slide in slides}
+
+
+EXO12 = Device(
+    name="exo12",
+    title="12-joint exoskeleton of the paper",
+    joints=JOINTS,
+    pelvis="held",
+    source="Degrees of freedom: Chen, Zhang and Zhu. Torques and speeds: a design choice, above what a "
+    "70 kg person's level walking at any of Schwartz's (2008) speeds needs; the paper gives none.",
+    remarks=("The same arrangement as ATALANTE, 12 actuated joints (Gurriet 2018).",),
+)
+
+LOKOMAT = Device(
+    name="lokomat",
+    title="LOKOMAT",
+    joints=both("hip_flexion", "knee_flexion"),
+    passive=both("ankle_dorsiflexion"),
+    pelvis=("pelvis_up",),
+    actuators=_loose("pelvis_up"),
+    source="Hip and knee driven by motors with ball screws, ankle passive; pelvis fixed but for the vertical "
+    "body-weight support, as PMC9768983, table 3, lists it. " + _CHOSEN,
+    remarks=(
+        "The ankle is carried by foot lifters and moved by the treadmill; here it is held at zero unless "
+        "released.",
+        "Its treadmill runs at 0.5 to 3.2 km/h.",
+        "Travel of the body-weight support: a design choice, +-0.10 m.",
+    ),
+)
+
+LOPES7 = Device(
+    name="lopes7",
+    title="LOPES, as the paper counts (7)",
+    joints=both("hip_flexion", "hip_adduction", "knee_flexion"),
+    pelvis=("pelvis_up",),
+    source="Chen, Zhang and Zhu: 7 degrees of freedom, hip flexion, hip adduction and knee of each leg and "
+    "the pelvis up and down. " + _CHOSEN,
+    remarks=("Its authors count 8: see lopes8. The foot is free in LOPES; here the ankle is held at zero.",),
+)
+
+LOPES8 = Device(
+    name="lopes8",
+    title="LOPES, as its authors count (8)",
+    joints=both("hip_flexion", "hip_adduction", "knee_flexion"),
+    pelvis=("pelvis_forward", "pelvis_left", "pelvis_up"),
+    actuators=_loose("pelvis_up"),
+    source="Veneman et al. 2007, IEEE TNSRE 15(3):379: a freely translatable pelvis, driven forward and "
+    "sideways, and two driven joints at the hip and one at the knee of each leg. " + _CHOSEN,
+    remarks=(
+        "The pelvis moves vertically too, without a motor. The paper counts 7: see lopes7.",
+        "Travel of the pelvis: a design choice, +-0.10 m. The foot is free in LOPES; here the ankle is held.",
+    ),
+)
+
+H2 = Device(
+    name="h2",
+    title="Exo-H2",
+    joints=both("hip_flexion", "knee_flexion", "ankle_dorsiflexion"),
+    passive=both("hip_adduction"),
+    pelvis="free",
+    ranges={"hip_adduction": (math.radians(-20.0), math.radians(20.0))},
+    source="Bortole et al. 2015, JNER 12:54: six driven joints in the sagittal plane, passive movement of "
+    "about 20 degrees at the hip in the frontal plane, 12 kg, users of 1.45 to 1.95 m. " + _CHOSEN,
+    remarks=("Worn over ground: the pelvis goes with the person.",),
+)
+
+HK4 = Device(
+    name="hk4",
+    title="powered orthosis (ReWalk, Indego, Ekso)",
+    joints=both("hip_flexion", "knee_flexion"),
+    passive=both("ankle_dorsiflexion"),
+    pelvis="free",
+    source="JNER 2021, s12984-021-00815-5, table 1: hips and knees driven; Ekso 23 kg, ReWalk 23.3 kg, "
+    "Indego 12 kg. " + _CHOSEN,
+    remarks=(
+        "Worn over ground: the pelvis goes with the person. The ankle is sprung in Ekso; here it is held at "
+        "zero unless released.",
+    ),
+)
+
+PLANAR5 = Device(
+    name="planar5",
+    title="planar five-link model",
+    joints=both("hip_flexion", "knee_flexion"),
+    pelvis=("pelvis_forward", "pelvis_up"),
+    actuators=_loose("pelvis_forward", "pelvis_up"),
+    source="Sagittal model of trunk, two thighs and two shanks, the feet rigid with the shanks. " + _CHOSEN,
+    remarks=(_TRUNK_PITCH,),
+)
+
+PLANAR7 = Device(
+    name="planar7",
+    title="planar seven-link model",
+    joints=both("hip_flexion", "knee_flexion", "ankle_dorsiflexion"),
+    pelvis=("pelvis_forward", "pelvis_up"),
+    actuators=_loose("pelvis_forward", "pelvis_up"),
+    source="Sagittal model of trunk, two thighs, two shanks and two feet. " + _CHOSEN,
+    remarks=(_TRUNK_PITCH,),
+)
+
+PLANAR9 = Device(
+    name="planar9",
+    title="planar nine-link model (with toes)",
+    joints=both("hip_flexion", "knee_flexion", "ankle_dorsiflexion"),
+    pelvis=("pelvis_forward", "pelvis_up"),
+    actuators=_loose("pelvis_forward", "pelvis_up"),
+    toes=True,
+    source="Sagittal model of trunk, two thighs, two shanks, two feet and two toes: the reading with toes. "
+    "Toe joint across the ball of the foot, its range and torque: a design choice. " + _CHOSEN,
+    remarks=(
+        _TRUNK_PITCH,
+        "Authors differ on the nine links (toes, or arms and head); a gait of this package has no toe "
+        "angles, so the toes stay at zero and the sole's pose is that of planar7.",
+    ),
+)
+
+DEVICES: Mapping[str, Device] = MappingProxyType(
+    {d.name: d for d in (EXO12, LOKOMAT, LOPES7, LOPES8, H2, HK4, PLANAR5, PLANAR7, PLANAR9)}
+)
+"""Every device by name."""
+
+
+def find(device: str | Device) -> Device:
+    """The device of that name, or of that TOML file; a record is handed back.
+
+    Raises:
+        UnknownNameError: There is none of that name.
+        FormatError: The file is no device.
+    """
+    if isinstance(device, Device):
+        return device
+    if device in DEVICES:
+        return DEVICES[device]
+    if Path(device).suffix.lower() == ".toml":
+        return load(device)
+    raise UnknownNameError("device", device, DEVICES)

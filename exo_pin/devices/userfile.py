@@ -1,0 +1,104 @@
+"""A device of one's own from a TOML file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from exo_pin.anatomy import tomlfile
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.devices.choices import CHOSEN, Actuator
+from exo_pin.devices.record import Device
+from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
+
+_TEXT, _NAMES = "a text", "a list of names"
+_KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
+    "name": (_TEXT, lambda x: isinstance(x, str)),
+    "title": (_TEXT, lambda x: isinstance(x, str)),
+    "source": (_TEXT, lambda x: isinstance(x, str)),
+    "joints": (_NAMES, lambda x: _is_names(x)),
+    "passive": (_NAMES, lambda x: _is_names(x)),
+    "pelvis": ('"held", "free" or a list of slides', lambda x: isinstance(x, str) or _is_names(x)),
+    "toes": ("true or false", lambda x: isinstance(x, bool)),
+    "remarks": ("a list of texts", lambda x: _is_names(x)),
+    "actuators": ("tables [actuators.<movement>]", lambda x: isinstance(x, dict)),
+    "ranges_deg": ("a table of movement = [lower, upper]", lambda x: isinstance(x, dict)),
+    "ranges_m": ("a table of slide = [lower, upper]", lambda x: isinstance(x, dict)),
+}
+"""What a device file may hold, and of which kind each entry is."""
+
+
+def load(path: str | Path) -> Device:
+    """Read a device file.
+
+    `name`, `joints` and `source` are needed; a joint without its side means both. Torques are `effort_nm`
+    [N m] and `velocity_rad_s` [rad/s] (slides: `effort_n`, `velocity_m_s`); what is left out is the choice of
+    `exo_pin.devices.choices`.
+
+    Raises:
+        FormatError: The file is no TOML, or a name or value in it is not accepted.
+    """
+    values = tomlfile.read(path)
+    try:
+        return _device(values)
+    except ExoPinError as error:
+        raise FormatError(path, str(error)) from None
+
+
+def _device(values: dict[str, Any]) -> Device:
+    for name, value in values.items():
+        if name not in _KINDS:
+            raise UnknownNameError("entry of a device file", name, _KINDS)
+        kind, fits = _KINDS[name]
+        if not fits(value):
+            raise DescriptionError(f"{name} is {value!r}; {kind} is accepted")
+    for name in ("name", "joints", "source"):
+        if name not in values:
+            raise DescriptionError(f"{name} is missing")
+    actuators = {m: _actuator(m, numbers) for m, numbers in values.pop("actuators", {}).items()}
+    ranges = _pairs(values.pop("ranges_deg", {}), math.radians) | _pairs(values.pop("ranges_m", {}), float)
+    for name in {"joints", "passive"} & set(values):
+        values[name] = _with_sides(values[name])
+    for name in {"pelvis", "remarks"} & set(values):
+        values[name] = values[name] if isinstance(values[name], str) else tuple(values[name])
+    return Device(actuators=actuators, ranges=ranges, **values)
+
+
+def _is_names(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(x, str) for x in value)
+
+
+def _with_sides(names: list[str]) -> tuple[str, ...]:
+    """`knee_flexion` means both sides."""
+    spread = []
+    for name in names:
+        if name not in MOVEMENTS and name not in JOINTS:
+            raise UnknownNameError("joint", name, (*MOVEMENTS, *JOINTS))
+        spread += [f"{side}_{name}" for side in SIDES] if name in MOVEMENTS else [name]
+    return tuple(spread)
+
+
+def _actuator(movement: str, numbers: object) -> Actuator:
+    if movement not in CHOSEN:
+        raise UnknownNameError("movement", movement, CHOSEN)
+    slides = movement.startswith("pelvis_")
+    names = ("effort_n", "velocity_m_s") if slides else ("effort_nm", "velocity_rad_s")
+    if not isinstance(numbers, dict) or not set(numbers) <= set(names):
+        raise DescriptionError(f"actuators.{movement}: {' and '.join(names)} are accepted")
+    if not all(type(x) in (int, float) for x in numbers.values()):
+        raise DescriptionError(f"actuators.{movement}: {numbers} must be numbers")
+    effort, velocity = (numbers.get(name, own) for name, own in zip(names, CHOSEN[movement], strict=True))
+    return Actuator(float(effort), float(velocity))
+
+
+def _pairs(table: dict[str, Any], unit: Callable[[float], float]) -> dict[str, tuple[float, float]]:
+    pairs = {}
+    for name, pair in table.items():
+        if name.startswith("pelvis_") != (unit is float):
+            raise DescriptionError(f"range of {name}: joints belong in ranges_deg, slides in ranges_m")
+        if not (isinstance(pair, list) and len(pair) == 2 and all(type(x) in (int, float) for x in pair)):
+            raise DescriptionError(f"range of {name} is {pair!r}; two numbers [lower, upper] are accepted")
+        pairs[name] = (unit(pair[0]), unit(pair[1]))
+    return pairs

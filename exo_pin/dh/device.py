@@ -1,0 +1,58 @@
+"""The witness for devices that lock some of the 12 joints, slide the pelvis or have toes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy.body import Body
+from exo_pin.anatomy.names import MOVEMENTS, SIDES
+from exo_pin.dh.leg import chain
+from exo_pin.dh.recursion import recursion
+
+Array = npt.NDArray[np.float64]
+Witness = Callable[..., dict[str, Array]]
+
+_SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
+
+
+def of_device(
+    body: Body, angles: Mapping[str, Array], *, hip_order: str = "clinical", witness: Witness = recursion
+) -> dict[str, Array]:
+    """Poses of a device, from the stand that its slides move on (the pelvis, if it has none).
+
+    Args:
+        body: Sizes of the exoskeleton.
+        angles: Values (...) by joint name [rad], slides [m]; a joint that is left out is locked at zero.
+        hip_order: Order of the hip joints.
+        witness: `recursion` or `modified_dh`.
+
+    Returns:
+        T_stand_link (..., 4, 4) by name of the joint that moves the link, and by `left_foot`, `right_foot`;
+        slides are not among them.
+    """
+    still = np.zeros(np.shape(next(iter(angles.values()), 0.0)))
+    order = [f"{side}_{movement}" for side in SIDES for movement in chain(hip_order)]
+    q = np.stack([angles.get(name, still) for name in order], axis=-1)
+    poses = witness(body, q, hip_order=hip_order)
+    for side in SIDES:
+        toe = f"{side}_toe_dorsiflexion"
+        if toe in angles:
+            poses[toe] = poses[f"{side}_{MOVEMENTS[-1]}"] @ _toe(body, side, angles[toe])
+    slid = np.tile(np.eye(4), (*still.shape, 1, 1))
+    for axis, slide in enumerate(_SLIDES):
+        slid[..., axis, 3] = angles.get(slide, still)
+    return {name: slid @ T for name, T in poses.items()}
+
+
+def _toe(body: Body, side: str, angle: Array) -> Array:
+    """T_sole_toe: at the ball of the foot, on the sole; toes up is a turn about -y."""
+    leg = body.leg(side)
+    T = np.zeros((*np.shape(angle), 4, 4))
+    T[..., 0, 0], T[..., 0, 2] = np.cos(angle), -np.sin(angle)
+    T[..., 2, 0], T[..., 2, 2] = np.sin(angle), np.cos(angle)
+    T[..., 1, 1] = T[..., 3, 3] = 1.0
+    T[..., 0, 3], T[..., 2, 3] = leg.ball, -leg.ankle_height
+    return T
