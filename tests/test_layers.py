@@ -11,7 +11,7 @@ FLOORS = [
     {"files"},
     {"anatomy"},
     {"devices"},
-    {"description", "dh", "gait"},
+    {"description", "dh", "gait", "signals"},
     {"robot", "formats"},
     {"kinematics", "dynamics"},
     {"ik"},

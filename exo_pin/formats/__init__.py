@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, mapped, opensim, trajectory, trc
+from exo_pin.formats.forces import load_forces
 from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import PRESETS
@@ -24,6 +25,7 @@ __all__ = [
     "Plate",
     "Poses",
     "Reading",
+    "load_forces",
     "load_gait",
     "load_markers",
     "load_poses",

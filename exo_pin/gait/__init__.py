@@ -1,8 +1,25 @@
-"""A walk as data: angles over time, contact events, and the normative walk at five speeds."""
+"""A walk as data: angles over time, contact events, cycles and their numbers, the normative walk."""
 
+from exo_pin.gait.cycles import Cycles, cycles
+from exo_pin.gait.doubts import doubts
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.events import zeni
 from exo_pin.gait.normative import SPEEDS, normative_gait
+from exo_pin.gait.spatiotemporal import NORMAL, Number, against_normal, spatiotemporal
 from exo_pin.gait.walk import Gait
 
-__all__ = ["EVENT_KINDS", "SPEEDS", "Event", "Gait", "normative_gait", "zeni"]
+__all__ = [
+    "EVENT_KINDS",
+    "NORMAL",
+    "SPEEDS",
+    "Cycles",
+    "Event",
+    "Gait",
+    "Number",
+    "against_normal",
+    "cycles",
+    "doubts",
+    "normative_gait",
+    "spatiotemporal",
+    "zeni",
+]

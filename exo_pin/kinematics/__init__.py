@@ -3,6 +3,7 @@
 from exo_pin.kinematics.contact import Contacts, contacts, events
 from exo_pin.kinematics.mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
+from exo_pin.kinematics.walk import plate_events, spatiotemporal
 
 __all__ = [
     "CenterOfMass",
@@ -13,6 +14,8 @@ __all__ = [
     "contacts",
     "events",
     "jacobian",
+    "plate_events",
     "poses",
+    "spatiotemporal",
     "velocities",
 ]

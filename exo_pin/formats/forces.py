@@ -1,0 +1,58 @@
+"""Ground reaction forces in OpenSim's storage files, in their three styles of names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from exo_pin.errors import FormatError
+from exo_pin.formats.markers import Plate
+from exo_pin.formats.pelvis import OURS
+from exo_pin.formats.storage import read_storage
+from exo_pin.formats.table import Array, Table
+
+FORCE = re.compile(
+    r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"
+)
+"""`1_ground_force_vx`, `ground_force_1_vx`, `ground_force_l_px`, `ground_torque_x`, `l_ground_moment_mx`."""
+
+
+def load_forces(path: str | Path) -> tuple[Plate, ...]:
+    """Read the force plates of a .mot or .sto file; OpenSim's axes (y up) become ours (z up).
+
+    Raises:
+        FormatError: With file and reason: no storage file, no forces, columns that are missing.
+    """
+    path = Path(path)
+    table = read_storage(path).table
+    if "time" not in table.names:
+        raise FormatError(path, "no column 'time'", line=table.lines[0] - 1)
+    groups = _groups(table.names)
+    if not groups:
+        raise FormatError(path, "no ground reaction forces; expected columns like ground_force_vx")
+    time = table.times("time")
+    return tuple(_plate(table, time, name, columns) for name, columns in groups.items())
+
+
+def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
+    """Plate -> (`vx`, `py`, `mz` ...) -> column."""
+    groups: dict[str, dict[str, str]] = {}
+    for name in names:
+        match = FORCE.match(name)
+        if match is None:
+            continue
+        what = "m" if match["kind"] != "force" else match["what"]
+        key = (match["head"] + match["tail"]).replace("ground", "").strip("_")
+        groups.setdefault(key, {})[what + match["axis"]] = name
+    return {key: columns for key, columns in groups.items() if {"vx", "vy", "vz"} <= set(columns)}
+
+
+def _plate(table: Table, time: Array, name: str, columns: dict[str, str]) -> Plate:
+    parts = []
+    for what in "vpm":
+        gone = [what + axis for axis in "xyz" if what + axis not in columns]
+        if gone:
+            raise FormatError(table.path, f"force plate {name or '1'} has no column for {', '.join(gone)}")
+        parts.append(table.columns([columns[what + axis] for axis in "xyz"]) @ OURS.T)
+    return Plate(f"force plate {name}".strip(), time, *parts)

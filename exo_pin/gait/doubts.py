@@ -1,0 +1,74 @@
+"""Whether angles look like those of a walk: signs, presets and units that were probably mistaken."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.gait.walk import Gait
+
+Array = NDArray[np.float64]
+
+BACKWARDS = np.radians(-10.0)
+"""No healthy knee is straighter than this for long [rad]; recordings hyperextend by up to 5 degrees."""
+
+LONG = 0.3
+"""Part of the samples that is long."""
+
+NOTHING = np.radians(3.0)
+"""In a walk some joint moves more than this [rad]; less is standing, or degrees converted twice."""
+
+RANGES = {
+    "hip_flexion": (-45.0, 130.0),
+    "hip_adduction": (-50.0, 45.0),
+    "hip_rotation": (-70.0, 70.0),
+    "knee_flexion": (-20.0, 160.0),
+    "ankle_dorsiflexion": (-65.0, 50.0),
+    "ankle_inversion": (-50.0, 60.0),
+}
+"""What human joints can do at the very most [deg]: clinical ranges of motion with a margin of about 20."""
+
+
+def doubts(gait: Gait) -> tuple[str, ...]:
+    """Reasons to doubt that the angles were read with the right signs and units; none for a usual walk.
+
+    Each reason says what was found, for what part of the walk, and what is probably wrong.
+    """
+    reasons = [_backwards(gait.q, side) for side in SIDES]
+    if np.ptp(gait.q, axis=0).max() < NOTHING:
+        moved = np.degrees(np.ptp(gait.q, axis=0).max())
+        reasons.append(f"no joint moves more than {moved:.1f} deg: standing, or units?")
+    reasons += [_impossible(gait.q[:, k], joint) for k, joint in enumerate(JOINTS)]
+    reasons.append(_swing(gait.q))
+    return tuple(reason for reason in reasons if reason)
+
+
+def _backwards(q: Array, side: str) -> str:
+    knee = q[:, JOINTS.index(f"{side}_knee_flexion")]
+    share = float((knee < BACKWARDS).mean())
+    if share < LONG:
+        return ""
+    return f"{side} knee bends backwards for {100 * share:.0f} % of the cycle: sign or preset?"
+
+
+def _impossible(angle: Array, joint: str) -> str:
+    low, high = np.radians(RANGES[joint.partition("_")[2]])
+    share = float(((angle < low) | (angle > high)).mean())
+    if not share:
+        return ""
+    span = f"{np.degrees(angle.min()):.0f} .. {np.degrees(angle.max()):.0f} deg"
+    return f"{joint} is beyond human range for {100 * share:.0f} % of the cycle ({span}): sign or units?"
+
+
+def _swing(q: Array) -> str:
+    """In a walk the hip flexes while the knee does: the swing. Both sides against it means a hip's sign."""
+    against = []
+    for side in SIDES:
+        hip, knee = (q[:, JOINTS.index(f"{side}_{movement}")] for movement in ("hip_flexion", "knee_flexion"))
+        if np.ptp(knee) < np.radians(30) or np.ptp(hip) < np.radians(15):
+            return ""
+        bent = knee >= np.percentile(knee, 85)
+        rate = np.gradient(hip)
+        against.append(float(rate[bent].mean()) < 0 and float((rate[bent] < 0).mean()) > 0.8)
+    return "both hips extend while the knee is bent most (swing): sign of the hip?" if all(against) else ""

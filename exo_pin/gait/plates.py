@@ -1,0 +1,91 @@
+"""Heel strikes and toe-offs from the vertical force under a foot."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.errors import GaitError
+from exo_pin.gait.checks import check_time, frozen
+
+Array = NDArray[np.float64]
+
+SOURCE = "force plate"
+THRESHOLD = 20.0
+"""Somebody stands on the plate above this [N]: the laboratories' habit."""
+
+SHORTEST = 0.05
+"""A contact, or a gap between contacts, that is shorter [s] is noise of the plate."""
+
+
+class Contact(NamedTuple):
+    """One contact with a plate; None where it began before or ended after the recording.
+
+    Attributes:
+        strike: When the force rises above the threshold [s].
+        off: When it falls below [s].
+        start: First sample in contact.
+        stop: Sample after the last one in contact.
+    """
+
+    strike: float | None
+    off: float | None
+    start: int
+    stop: int
+
+
+def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = THRESHOLD) -> tuple[Contact, ...]:
+    """Contacts with a force plate.
+
+    Args:
+        time: `(m,)` [s].
+        vertical: `(m,)` vertical ground reaction force, upwards positive [N].
+        threshold: Force of a contact [N].
+
+    Returns:
+        The contacts in order; the times are interpolated between samples.
+
+    Raises:
+        GaitError: Unusable arrays.
+    """
+    t, force = frozen(time, "time"), frozen(vertical, "vertical force")
+    check_time(t, periodic=False)
+    if force.shape != t.shape or not np.isfinite(force).all():
+        raise GaitError(f"vertical force: expected finite numbers ({len(t)},) [N], not {force.shape}")
+    runs = _runs(force > threshold)
+    runs = _joined(t, runs)
+    runs = [run for run in runs if t[run[1] - 1] - t[run[0]] >= SHORTEST]
+    return tuple(
+        Contact(
+            _crossing(t, force, start, threshold) if start else None,
+            _crossing(t, force, stop, threshold) if stop < len(t) else None,
+            start,
+            stop,
+        )
+        for start, stop in runs
+    )
+
+
+def _runs(on: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Start and stop of each run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], on, [False]]).astype(int)))
+    return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
+
+
+def _joined(time: Array, runs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Runs with too short a gap between them are one."""
+    out: list[tuple[int, int]] = []
+    for start, stop in runs:
+        if out and time[start] - time[out[-1][1] - 1] < SHORTEST:
+            out[-1] = (out[-1][0], stop)
+        else:
+            out.append((start, stop))
+    return out
+
+
+def _crossing(time: Array, force: Array, k: int, threshold: float) -> float:
+    """When the force passes the threshold between the samples k - 1 and k."""
+    before, after = force[k - 1], force[k]
+    return float(time[k - 1] + (time[k] - time[k - 1]) * (threshold - before) / (after - before))

@@ -1,0 +1,96 @@
+"""What a walk's feet tell: its spatiotemporal numbers, and whose force a plate measured."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.errors import GaitError
+from exo_pin.formats import Plate
+from exo_pin.gait import Event, Gait, plates
+from exo_pin.gait.cycles import unrolled
+from exo_pin.gait.spatiotemporal import Number
+from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
+from exo_pin.kinematics.contact import events
+from exo_pin.kinematics.motion import poses
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+NEAR = 0.3
+"""A foot whose sole is further from the force than this [m] is not the one on the plate."""
+
+CLEARLY = 0.5
+"""The other foot must be at least this many times further away, or nobody can tell whose the force is."""
+
+
+def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
+    """Cadence, speed, lengths, width and phases of a gait; see `exo_pin.gait.spatiotemporal`.
+
+    Events are the gait's own, or those of its kinematics. Lengths are those of this robot's legs.
+
+    Raises:
+        GaitError: There are no gait cycles.
+    """
+    if not gait.events:
+        gait = dataclasses.replace(gait, events=events(robot, gait))
+    walk = unrolled(gait)
+    heels = _soles(robot, walk)[:, :, 0]
+    return numbers_of(walk.time, heels, walk.events)
+
+
+def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Event, ...]:
+    """Heel strikes and toe-offs from force plates, z up; each contact belongs to the foot above it.
+
+    A contact that could be either foot's, or nobody's, gives no event.
+
+    Args:
+        robot: The robot that walks.
+        gait: The walk, in the world of the plates.
+        forces: Force plates.
+
+    Raises:
+        GaitError: The gait does not move in the world, or no contact could be told.
+    """
+    if gait.base is None:
+        raise GaitError("the pelvis does not move in the world, so no foot can be found on a force plate")
+    soles = _soles(robot, gait).mean(axis=2)
+    found = []
+    for plate in forces:
+        for contact in plates.contacts(plate.time, plate.force[:, 2]):
+            side = _whose(gait.time, soles, plate, contact)
+            times = {"heel_strike": contact.strike, "toe_off": contact.off}
+            for kind, t in times.items():
+                if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
+                    found.append(Event(t, kind, side, plates.SOURCE))
+    if not found:
+        raise GaitError("no contact of a foot with a force plate was found")
+    return tuple(sorted(found, key=lambda event: event.time))
+
+
+def _whose(time: Array, soles: Array, plate: Plate, contact: plates.Contact) -> str:
+    """The side of the foot that is nearest to the force all the time, or "" where that is not clear."""
+    rows = slice(contact.start, contact.stop)
+    t, point = plate.time[rows], plate.point[rows, :2]
+    seen = (t >= time[0]) & (t <= time[-1])
+    if not seen.any():
+        return ""
+    away = np.empty(len(SIDES))
+    for k in range(len(SIDES)):
+        path = np.stack([np.interp(t[seen], time, soles[:, k, axis]) for axis in range(2)], axis=1)
+        away[k] = np.median(np.linalg.norm(path - point[seen], axis=1))
+    nearest = int(away.argmin())
+    if away[nearest] > NEAR or away[nearest] > CLEARLY * away[1 - nearest]:
+        return ""
+    return SIDES[nearest]
+
+
+def _soles(robot: Robot, gait: Gait) -> Array:
+    """`(n, 2, 2, 3)` left and right foot: heel and ball, midway between their corners [m]."""
+    base = gait.base if robot.base == "fixed" else None
+    corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
+    return np.asarray(corners.reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3))

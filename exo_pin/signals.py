@@ -1,0 +1,131 @@
+"""Sampled curves made fit for use: low-pass filter, gaps, spikes."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.errors import GaitError
+
+Array = NDArray[np.float64]
+
+CUTOFF = 6.0
+"""The gait laboratories' habit [Hz]."""
+
+ORDER = 4
+"""Of forward and backward pass together."""
+
+GAP = 0.2
+"""Longest gap that is filled [s]: a sixth of a stride."""
+
+EVEN = 1e-3
+"""How far samples may lie off an even grid, as a fraction of the step."""
+
+
+class Filled(NamedTuple):
+    """Curves after filling.
+
+    Attributes:
+        values: `(n, ...)`; NaN where a gap was too long or open at an end.
+        filled: Samples that were filled.
+        left: Samples that are still missing.
+    """
+
+    values: Array
+    filled: int
+    left: int
+
+
+def lowpass(time: ArrayLike, y: ArrayLike, *, cutoff: float = CUTOFF, order: int = ORDER) -> Array:
+    """Zero-lag Butterworth filter: forward, then backward, so nothing is delayed.
+
+    The pass's own cut-off is raised so that both passes together have their -3 dB at `cutoff` (Winter,
+    Biomechanics and Motor Control of Human Movement: the factor (2^(1/2) - 1)^(1/4) for order 4).
+
+    Args:
+        time: `(n,)` even samples [s].
+        y: `(n, ...)` curves without gaps.
+        cutoff: Frequency that keeps half its power [Hz].
+        order: 2, 4, 6 or 8, of both passes together.
+
+    Returns:
+        `(n, ...)` the filtered curves.
+
+    Raises:
+        GaitError: Uneven or too few samples, gaps, or a cut-off beyond half the sampling rate.
+    """
+    from scipy import signal  # 0.3 s, needed here only
+
+    t, values = np.asarray(time, dtype=float), np.asarray(y, dtype=float)
+    rate = _rate(t)
+    if order not in (2, 4, 6, 8):
+        raise GaitError(f"order is {order}; 2, 4, 6 or 8 (forward and backward together) is accepted")
+    if not 0 < cutoff < rate / 2:
+        raise GaitError(f"cut-off is {cutoff:g} Hz; more than 0 and less than {rate / 2:g} Hz is accepted")
+    if not np.isfinite(values).all():
+        raise GaitError("a curve with gaps cannot be filtered; fill them first")
+    half = order // 2
+    correction = (np.sqrt(2.0) - 1.0) ** (1 / (2 * half))
+    warped = np.tan(np.pi * cutoff / rate) / correction  # the digital filter's frequencies are bent by tan
+    sos = signal.butter(half, np.arctan(warped) * rate / np.pi, fs=rate, output="sos")
+    pad = min(len(t) - 1, int(3 * rate / cutoff))
+    return np.asarray(signal.sosfiltfilt(sos, values, axis=0, padlen=pad))
+
+
+def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
+    """Fill gaps (NaN) up to a limit with a monotone-preserving cubic (PCHIP), never beyond the ends.
+
+    Args:
+        time: `(n,)` increasing [s].
+        y: `(n, ...)` curves; a sample is missing where it is NaN.
+        limit: Longest gap that is filled, from the last sample before to the first after it [s].
+    """
+    from scipy.interpolate import PchipInterpolator  # 0.3 s, needed here only
+
+    t = np.asarray(time, dtype=float)
+    values = np.array(y, dtype=float)
+    flat = values.reshape(len(t), -1)
+    before = int(np.isnan(flat).sum())
+    for k in range(flat.shape[1]):
+        seen = np.flatnonzero(~np.isnan(flat[:, k]))
+        if len(seen) in (0, 1, len(t)):
+            continue
+        curve = PchipInterpolator(t[seen], flat[seen, k])
+        gaps = np.flatnonzero((np.diff(seen) > 1) & (np.diff(t[seen]) <= limit))
+        for gap in gaps:
+            rows = slice(seen[gap] + 1, seen[gap + 1])
+            flat[rows, k] = curve(t[rows])
+    left = int(np.isnan(flat).sum())
+    return Filled(flat.reshape(values.shape), before - left, left)
+
+
+def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = 8.0) -> NDArray[np.bool_]:
+    """Which samples `(n, ...)` jump away from both neighbours by `factor` times the usual second difference.
+
+    The usual is 1.4826 times the median absolute second difference (a robust standard deviation).
+    """
+    values = np.asarray(y, dtype=float)
+    bad = np.zeros(values.shape, dtype=bool)
+    if len(values) < 5:
+        return bad
+    bend = np.abs(values[:-2] - 2 * values[1:-1] + values[2:])
+    usual = 1.4826 * np.nanmedian(bend, axis=0)
+    peak = bend > factor * np.maximum(usual, 1e-12)
+    stronger = np.ones_like(peak)
+    stronger[1:] &= bend[1:] >= bend[:-1]
+    stronger[:-1] &= bend[:-1] >= bend[1:]
+    bad[1:-1] = peak & stronger
+    return bad
+
+
+def _rate(time: Array) -> float:
+    """Samples per second of an even grid."""
+    if len(time) < 10:
+        raise GaitError(f"{len(time)} samples are too few to filter; 10 are accepted")
+    step = float(time[-1] - time[0]) / (len(time) - 1)
+    off = float(np.abs(time - time[0] - step * np.arange(len(time))).max())
+    if off > EVEN * step:
+        raise GaitError(f"samples lie up to {off:.2g} s off an even grid; resample before filtering")
+    return 1.0 / step
