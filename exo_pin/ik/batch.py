@@ -17,7 +17,8 @@ from exo_pin.ik.sheet import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK
 
 Array = npt.NDArray[np.float64]
-Places = npt.NDArray[np.int64]
+ROUNDING, ROUGH = 1e-13, 1e-6
+"""Errors between these are worth a polish [m, rad]."""
 
 
 def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
@@ -33,6 +34,23 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
         sheet.errors[0, part, f], sheet.errors[1, part, f] = chain.errors(chain.forward(leg, q), R, p)
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]
+
+
+def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:
+    """Two steps more for the few answers whose limits cut off the rounding of a nearly singular pose."""
+    goal, own = task.goals[f], sheet.errors[:, :, f]
+    assert goal.R is not None  # as above
+    rough = np.flatnonzero(((own > ROUNDING) & (own < ROUGH)).any(axis=0))
+    if not len(rough):
+        return
+    spot, settings = np.ix_(rough, leg.columns), Dls(tolerance=ROUNDING, max_iterations=2, restarts=0)
+    near = np.ones(len(rough), dtype=bool)
+    better = batch_dls.answers(
+        leg, goal.R[rough], goal.p[rough, 0], sheet.q[spot].T, settings, reachable=near
+    )
+    gain = better.errors.sum(axis=0) < own[:, rough].sum(axis=0)
+    sheet.q[spot] = np.where(gain, better.q, sheet.q[spot].T).T
+    sheet.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
 
 
 def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:

@@ -74,7 +74,7 @@ def _starts(leg: Leg, count: int) -> Iterator[Callable[[Array], Array]]:
     """Starts made from where samples got stuck: the knee bent a little either way, then elsewhere."""
     for bend in (KICK, -KICK)[:count]:
         yield partial(np.add, bend * (np.arange(6) == KNEE)[:, None])
-    for start in starts(leg.lower, leg.upper, count - 2):
+    for start in starts(0.5 * (leg.lower + leg.upper), leg.lower, leg.upper, count - 2):
         yield partial(_everywhere, start)
 
 

@@ -21,6 +21,9 @@ from exo_pin.ik.ideal import IdealLeg
 
 Array = npt.NDArray[np.float64]
 _TURN = 2.0 * np.pi
+STRAIGHT = 1.0 - 1e-13
+"""A knee whose cosine is above this is straight: the rounding of the target would bend it by 1e-7 rad, which
+costs nothing in the pose until a hip joint on its limit is cut off. It is 2e-14 m of the leg's length."""
 
 
 def angles(leg: IdealLeg, R: Matrix, p: list[Number]) -> Array:
@@ -36,7 +39,8 @@ def _angles(leg: IdealLeg, G: Matrix, v: list[Array]) -> Array:
     square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
     scale = 0.5 / (leg.thigh * leg.shank)
     cos_k = square * scale - (leg.lateral**2 + leg.thigh**2 + leg.shank**2) * scale
-    np.minimum(np.maximum(cos_k, -1.0, out=cos_k), 1.0, out=cos_k)
+    np.maximum(cos_k, -1.0, out=cos_k)
+    cos_k[cos_k > STRAIGHT] = 1.0
     sin_k = np.sqrt((1.0 - cos_k) * (1.0 + cos_k))
     np.arccos(cos_k, out=q[3])
     if leg.bend < 0:

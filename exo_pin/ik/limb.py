@@ -52,6 +52,10 @@ class Limb:
         down, up = self.lower - q, self.upper - q
         return (down[1:], up[1:]) if self.floats else (down, up)  # nq = nv + 1 with a quaternion
 
+    def difference(self, q: Array, target: Array) -> Array:
+        """The step (nv,) from q to another configuration."""
+        return np.asarray(pin.difference(self.model, q, target)) if self.floats else target - q
+
     def moved(self, q: Array, step: Array) -> Array:
         """The configuration after a step, rounding kept inside the limits."""
         q = np.asarray(pin.integrate(self.model, q, step)) if self.floats else q + step

@@ -24,7 +24,8 @@ def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
     for k in range(task.n):
         if own:
             seed = task.seed[k, limb.q]
-        answer = best_try(limb, data, seed, goals, k, settings, reachable=not short[k])
+        free = k == 0 and not own
+        answer = best_try(limb, data, seed, goals, k, settings, reachable=not short[k], free=free)
         sheet.q[k, limb.q] = answer.q
         sheet.errors[:, k, places] = answer.errors
         sheet.steps[k] += answer.steps

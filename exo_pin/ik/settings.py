@@ -19,8 +19,9 @@ class Dls:
             so that a frame out of reach stays near its neighbour.
         warm_start: True: each frame starts from the answer of the one before; False: each frame starts from
             the seed, independent of its neighbours.
-        damping: Smallest damping of the normal equations: 0 for exact targets; about 1e-3 keeps the joints
-            calm when noisy feet pull a nearly straight leg.
+        damping: What a motion away from the sample before costs [m/rad]: the noise of the feet [m] divided by
+            how far a joint moves between two samples [rad]. 0 for exact targets; 0.05 keeps the joints calm
+            when feet with 3 mm of noise pull a nearly straight leg at 100 Hz, and hardly delays a bent one.
         position_weight: Weight of a position error [1/m] against the others.
         rotation_weight: Weight of a rotation error [1/rad] against the others.
     """

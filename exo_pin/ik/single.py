@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from exo_pin.ik import closed_form
 from exo_pin.ik.chain import Matrix
+from exo_pin.ik.closed_form import STRAIGHT
 from exo_pin.ik.ideal import IdealLeg
 
 Array = npt.NDArray[np.float64]
@@ -75,7 +76,7 @@ def _straight_line(leg: IdealLeg, lower: list[float], upper: list[float], *, thi
         v1 = u1 * (T[t1] - h1) + drop * z1
         v2 = u2 * (T[t2] - h2) + drop * z2
         ck = (v0 * v0 + v1 * v1 + v2 * v2) * scale - shift
-        ck = 1.0 if ck > 1.0 else -1.0 if ck < -1.0 else ck
+        ck = 1.0 if ck > STRAIGHT else -1.0 if ck < -1.0 else ck
         sk = bend * sqrt((1.0 - ck) * (1.0 + ck))
         hx = -(v0 * x0 + v1 * x1 + v2 * x2)
         hy = -(v0 * y0 + v1 * y1 + v2 * y2)

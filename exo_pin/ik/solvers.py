@@ -43,7 +43,11 @@ def auto(task: Problem, settings: Auto) -> Track:
         if own is None or near is None:
             _iterate(task, limb, f, own, dls, sheet)
             continue
-        (batch.formula if exact else batch.nearly)(task, f, own, near, sheet)
+        if exact:
+            batch.formula(task, f, own, exact, sheet)
+            batch.polish(task, f, own, sheet)
+        else:
+            batch.nearly(task, f, own, near, sheet)
         batch.descent(task, f, own, dls, sheet)
     return sheet.track(task, settings.tolerance)
 
@@ -77,7 +81,7 @@ def descend(task: Problem, settings: Dls) -> Track:
 def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, sheet: Sheet) -> None:
     """All samples at once where they do not wait for each other, else one after the other."""
     apart = task.seed.ndim == 2 or not settings.warm_start
-    if own is None or not apart or task.n < 2:
+    if own is None or not apart or task.n < 2 or settings.damping:
         follow(task, limb, settings, sheet)
         return
     seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, own.columns].T

@@ -10,10 +10,11 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 
 
-def starts(lower: Array, upper: Array, count: int) -> Iterator[Array]:
+def starts(middle: Array, lower: Array, upper: Array, count: int) -> Iterator[Array]:
     """The middle of the joint ranges, then a low-discrepancy sequence over them (Roberts 2018, R_d).
 
-    Always the same, so that an answer does not depend on what was solved before. Unlimited joints stay zero.
+    Always the same, so that an answer does not depend on what was solved before. Unlimited joints stay where
+    `middle` has them.
     """
     bounded = np.isfinite(lower) & np.isfinite(upper)
     low, span = lower[bounded], (upper - lower)[bounded]
@@ -22,6 +23,6 @@ def starts(lower: Array, upper: Array, count: int) -> Iterator[Array]:
         root = (1.0 + root) ** (1.0 / (len(span) + 1))
     pace = root ** -np.arange(1.0, len(span) + 1.0)
     for i in range(count):
-        q = np.zeros(len(lower))
+        q = middle.copy()
         q[bounded] = low + ((0.5 + i * pace) % 1.0) * span
         yield q
