@@ -53,6 +53,7 @@ _RECORDER = """
   };
 })()
 """
+_SHORTEST_SLOT, _LONGEST_DELAY = 0.15, 0.6  # the recorder drops what comes faster, and lags behind [s]
 _MILLISECONDS = bytes.fromhex("2ad7b1830f4240")  # WebM's TimestampScale: times count in 1 000 000 ns
 
 
@@ -110,14 +111,18 @@ def film(
         DescriptionError: Unknown ending, or a size or frame rate out of range.
         ExoPinError: Chromium or ffmpeg is missing.
     """
-    if path.suffix.lower() not in FILMS:
+    kind = path.suffix.lower()
+    if kind not in FILMS:
         raise DescriptionError(f"{path}: a film ends in {', '.join(FILMS)}")
+    if (kind == ".mp4" or (kind == ".webm" and curves)) and not shutil.which("ffmpeg"):
+        wanted = "an MP4" if kind == ".mp4" else "a WebM with curves"
+        raise ExoPinError(f"{wanted} needs ffmpeg (e.g. `apt install ffmpeg`); .gif does without")
     if not 1 <= fps <= 60:
         raise DescriptionError(f"fps is {fps:g}; 1 .. 60 is accepted")
     count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
     phases = progress([k / count for k in range(count)])
     with _page(scene, camera, size, curves) as browser:
-        return FILMS[path.suffix.lower()](browser, phases, fps)
+        return FILMS[kind](browser, phases, fps)
 
 
 @contextmanager
@@ -171,14 +176,10 @@ def _gif(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
 def _webm(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
     if shutil.which("ffmpeg"):
         return _encoded(browser, phases, fps, ["-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-f", "webm"])
-    if browser.evaluate("document.getElementById('side').checkVisibility()"):
-        raise ExoPinError("a WebM with curves needs ffmpeg (e.g. `apt install ffmpeg`); .gif does without")
     return _recorded(browser, phases, fps)
 
 
 def _mp4(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
-    if not shutil.which("ffmpeg"):
-        raise ExoPinError("an MP4 needs ffmpeg (e.g. `apt install ffmpeg`); .webm and .gif do without")
     options = ["-c:v", "libx264", "-crf", "20", "-movflags", "frag_keyframe+empty_moov", "-f", "mp4"]
     return _encoded(browser, phases, fps, options)
 
@@ -202,14 +203,15 @@ def _recorded(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
     """
     start = time.monotonic()
     _show(browser, 0.0)
-    slot = max(1 / fps, 2 * (time.monotonic() - start))
+    browser.screenshot()
+    slot = max(_SHORTEST_SLOT, 2 * (time.monotonic() - start))
     browser.evaluate(_RECORDER)
     begin = time.monotonic()
     for k, phase in enumerate(phases):
         _show(browser, phase)
         time.sleep(max(0.0, begin + k * slot - time.monotonic()))
         browser.evaluate("film.frame()")
-    time.sleep(slot)
+    time.sleep(_LONGEST_DELAY)
     data = base64.b64decode(browser.evaluate("film.end()"))
     if data.count(_MILLISECONDS, 0, 4096) != 1:
         raise ExoPinError("this Chromium's recorder writes WebM in an unknown way; install ffmpeg instead")

@@ -28,6 +28,8 @@ SCRIPTS = (
     "plot.js",
     "plots.js",
     "toggles.js",
+    "sliders.js",
+    "record.js",
     "controls.js",
     "transport.js",
     "player.js",

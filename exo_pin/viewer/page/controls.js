@@ -13,6 +13,8 @@ class Controls {
     this.part("seek").oninput = (event) => player.seek(Number(event.target.value) * player.clock.duration);
     SPEEDS.forEach((speed) => this.offer(speed));
     this.part("speed").onchange = (event) => player.setSpeed(Number(event.target.value));
+    this.wire("png", () => savePicture(player.stage, player.header.title));
+    this.wire("webm", () => player.record());
     this.wire("help", () => this.part("about").showModal());
     this.part("cameras").replaceChildren(...Object.keys(CAMERAS).map((name) => this.camera(name)));
     addEventListener("keydown", (event) => this.key(event));

@@ -11,14 +11,21 @@ class Player {
     this.view = "iso";
     this.stage = Stage.open(part("pane"));
     part("no-webgl").hidden = this.stage !== null;
-    this.plots = new Plots(part("plots"), part("tabs"), (t) => this.seek(t));
+    this.plots = new Plots(part("plots"), part("tabs"), this.stage && part("sliders"), (t) => this.seek(t));
+    this.sliders = new Sliders(part("sliders"), (q) => this.poseByHand(q));
     this.controls = new Controls(this);
     this.transport = null;
     this.drawn = null; // time of the last picture
     if (this.stage) this.watchStage();
+    part("show").hidden = !this.stage;
+    part("webm").hidden = !Recorder.possible;
   }
 
   watchStage() {
+    this.recorder = new Recorder(this.stage, (on) => {
+      this.part("webm").setAttribute("aria-pressed", String(on));
+      this.part("webm").textContent = on ? "Stop and save" : "Record WebM";
+    });
     new ResizeObserver(() => {
       this.stage.resize();
       if (this.view && this.header) this.look(this.view);
@@ -61,6 +68,7 @@ class Player {
     this.stage.load(header, commands);
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
+    this.sliders.load(header.chains[0]);
     fillToggles(this.part("toggles"), header.groups, this.stage);
     this.look(this.view || "iso");
   }
@@ -72,6 +80,7 @@ class Player {
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
+      this.sliders.show(this.motion.row(this.chains[0].spec.q, at));
       this.stage.viewer.set_dirty();
     }
     this.plots.draw(t, at);
@@ -113,6 +122,14 @@ class Player {
     this.stage.viewer.set_dirty();
   }
 
+  /** Poses the exoskeleton by the sliders; the pelvis stays where the walk has it. */
+  poseByHand(q) {
+    this.clock.play(false);
+    const { base } = this.chains[0].spec;
+    this.chains[0].set(q, this.motion.pose(base, this.motion.at(this.clock.time)));
+    this.stage.viewer.set_dirty();
+  }
+
   toggle() {
     this.clock.play(!this.clock.playing);
   }
@@ -126,6 +143,12 @@ class Player {
     let t = this.clock.time;
     for (let k = 0; k < Math.abs(count); k++) t = this.motion.neighbour(t, Math.sign(count));
     this.seek(t);
+  }
+
+  record() {
+    if (this.recorder.running) return this.recorder.stop();
+    this.clock.play();
+    return this.recorder.start(this.header.title);
   }
 
   setLoop(on) {

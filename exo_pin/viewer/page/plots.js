@@ -1,9 +1,11 @@
 /* Plots: the column of synchronised plots with tabs; click or drag in one seeks in all. */
 
 class Plots {
-  constructor(holder, tabs, seek) {
+  /** `other` is an element that takes the plots' place under a last tab, or null. */
+  constructor(holder, tabs, other, seek) {
     this.holder = holder;
     this.tabs = tabs;
+    this.other = other;
     this.seek = seek;
     this.plots = [];
     this.observer = new ResizeObserver(() => this.resize());
@@ -13,24 +15,29 @@ class Plots {
   load(motion, groups) {
     this.motion = motion;
     this.groups = groups;
-    this.tabs.replaceChildren(...groups.map((group, k) => this.tab(group, k)));
-    this.tabs.hidden = groups.length < 2;
+    const titles = [...groups.map((group) => group.title), ...(this.other ? ["Pose"] : [])];
+    this.tabs.replaceChildren(...titles.map((title, k) => this.tab(title, k)));
+    this.tabs.hidden = titles.length < 2;
     this.choose(0);
   }
 
-  tab(group, k) {
+  tab(title, k) {
     const button = document.createElement("button");
     button.type = "button";
     button.setAttribute("role", "tab");
-    button.textContent = group.title;
+    button.textContent = title;
     button.onclick = () => this.choose(k);
     return button;
   }
 
   choose(k) {
     [...this.tabs.children].forEach((button, i) => button.setAttribute("aria-selected", String(i === k)));
+    const group = this.groups[k];
+    this.holder.hidden = !group;
+    if (this.other) this.other.hidden = Boolean(group);
+    if (!group) return;
     this.holder.replaceChildren();
-    this.plots = this.groups[k].plots.map((spec) => new Plot(spec, this.motion, this.groups[k], this.holder));
+    this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.holder));
     for (const plot of this.plots) this.listen(plot);
     this.resize();
   }

@@ -1,0 +1,51 @@
+/* Sliders: one per joint, within its limits. Moving one halts the walk and poses the exoskeleton by hand. */
+
+const TO_DEGREES = 180 / Math.PI;
+
+class Sliders {
+  /** onPose is called with the joint values, in the chain's order, after every change. */
+  constructor(holder, onPose) {
+    this.holder = holder;
+    this.onPose = onPose;
+    this.rows = [];
+  }
+
+  load(chain) {
+    this.q = chain.joints.map(() => 0);
+    const limited = chain.joints.map((joint, k) => ({ joint, k })).filter(({ joint }) => joint.limits);
+    this.rows = limited.map(({ joint, k }) => this.row(joint, k));
+    this.holder.replaceChildren(...this.rows.map((row) => row.label));
+  }
+
+  row(joint, k) {
+    const label = document.createElement("label");
+    const name = document.createElement("span");
+    const range = document.createElement("input");
+    const value = document.createElement("output");
+    name.textContent = joint.name.replaceAll("_", " ");
+    Object.assign(range, { type: "range", step: "any", min: joint.limits[0], max: joint.limits[1] });
+    label.className = joint.name.split("_")[0];
+    range.oninput = () => {
+      this.q[k] = Number(range.value);
+      this.tell({ range, value, k });
+      this.onPose(this.q);
+    };
+    label.append(name, range, value);
+    return { label, range, value, k };
+  }
+
+  tell({ range, value, k }) {
+    value.textContent = `${(this.q[k] * TO_DEGREES).toFixed(0).replace("-", "\u2212")}\u00b0`;
+    range.setAttribute("aria-valuetext", value.textContent);
+  }
+
+  /** Follows the walk while nobody poses by hand. */
+  show(q) {
+    if (this.holder.hidden) return;
+    this.q = [...q];
+    for (const row of this.rows) {
+      row.range.value = String(q[row.k]);
+      this.tell(row);
+    }
+  }
+}
