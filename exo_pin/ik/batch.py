@@ -44,10 +44,8 @@ def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:
     if not len(rough):
         return
     spot, settings = np.ix_(rough, leg.columns), Dls(tolerance=ROUNDING, max_iterations=2, restarts=0)
-    near = np.ones(len(rough), dtype=bool)
-    better = batch_dls.answers(
-        leg, goal.R[rough], goal.p[rough, 0], sheet.q[spot].T, settings, reachable=near
-    )
+    asked, near = (goal.R[rough], goal.p[rough, 0]), np.ones(len(rough), dtype=bool)
+    better = batch_dls.answers(leg, *asked, sheet.q[spot].T, settings, reachable=near)
     gain = better.errors.sum(axis=0) < own[:, rough].sum(axis=0)
     sheet.q[spot] = np.where(gain, better.q, sheet.q[spot].T).T
     sheet.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
