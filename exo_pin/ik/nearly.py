@@ -17,6 +17,8 @@ from exo_pin.ik.leg import Leg
 
 Array = npt.NDArray[np.float64]
 ROUNDS = 3
+BENT = 0.06
+"""The knee starts bent by this at least [rad]: from a straight leg the iteration would only creep."""
 
 
 def angles(leg: Leg, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
@@ -31,6 +33,8 @@ def angles(leg: Leg, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
         best, least = np.where(better, q, best), np.where(better, distance + angle, least)
         if k + 1 < ROUNDS:
             R_asked, p_asked = _moved(R, p, tip, R_asked, p_asked)
+    knee = ideal.bend * (best[3] - ideal.offset[3])
+    best[3] = ideal.offset[3] + ideal.bend * np.maximum(knee, BENT)
     return best
 
 
