@@ -15,6 +15,7 @@ from exo_pin.ik.leg import leg
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.robot import load_robot
 from peers import PEERS, calibrated, jobs
+from peers import plots as drawn
 from peers.tables import goals, head, reference, table, version
 
 SEED = 20260101
@@ -27,7 +28,7 @@ class Row:
         self.name, self.cells = name, {}
 
 
-def run(*, short, placo):
+def run(*, short, placo, plots=None):
     rng = np.random.default_rng(SEED)
     robot = load_robot()
     n, budget = (10_000, 1.0) if short else (10_000, 4.0)
@@ -59,7 +60,12 @@ def run(*, short, placo):
     )
     if not short:
         say("a million poses ...")
-        parts += [million(robot, rng), flat(robot, rng)]
+        cost = flat(robot, rng)
+        parts += [million(robot, rng), flat_table(cost)]
+    if plots:
+        drawn.noise(robot, rng, plots)
+        if not short:
+            drawn.flat(cost, plots)
     text = "\n\n".join(parts)
     print("\n" + text, flush=True)
     return text
@@ -185,13 +191,17 @@ def million(robot, rng):
 
 def flat(robot, rng):
     """Cost per frame from a thousand to a million frames."""
-    lines = ["| frames in one call | us per frame |", "|---|---|"]
-    job = jobs.cold(robot, 1_000_000, rng)
+    job, cost = jobs.cold(robot, 1_000_000, rng), {}
     for n in (1000, 10_000, 100_000, 1_000_000):
         few = jobs.part(job, n)
         took, _ = jobs.best_time(lambda j=few: ik.track(robot, j.targets), 2.0)
-        lines.append(f"| {n:,} | {took / n * 1e6:.2f} |")
-    return "\n".join(lines)
+        cost[n] = took / n * 1e6
+    return cost
+
+
+def flat_table(cost):
+    lines = ["| frames in one call | us per frame |", "|---|---|"]
+    return "\n".join(lines + [f"| {n:,} | {value:.2f} |" for n, value in cost.items()])
 
 
 def shell(python, code):
