@@ -44,7 +44,7 @@ def test_a_ghost_has_its_own_chain_and_switch(gait):
     ghost = next(chain for chain in scene.facts.chains if chain.name == "ghost")
     assert scene.arrays["ghost_q"].shape == scene.arrays["q"].shape
     assert not np.allclose(scene.arrays["ghost_q"], scene.arrays["q"])
-    assert "slow" in [group.title for group in scene.facts.groups]
+    assert "Ghost: slow" in [group.title for group in scene.facts.groups]
     assert scene.facts.reference == "slow"
     exo = scene.facts.chains[0]
     assert set(ghost.links) == set(exo.links)

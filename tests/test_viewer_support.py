@@ -92,8 +92,10 @@ def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
 
 def test_a_longer_walk_is_carried_as_its_cycle_is(robot):
     gait = normative_gait()
-    once, twice = motion(robot, gait), motion(robot, gait.repeated(2))
-    assert twice.support.belt_speed == pytest.approx(once.support.belt_speed, rel=1e-6)
+    once, often = motion(robot, gait), motion(robot, gait.repeated(20))
+    assert often.base == pytest.approx(np.tile(once.base, (20, 1, 1)), abs=1e-9)
+    for number in ("belt_speed", "sink", "hover", "gap", "slide"):
+        assert getattr(often.support, number) == pytest.approx(getattr(once.support, number), abs=1e-9)
 
 
 def test_a_walk_through_the_room_keeps_its_way_and_gets_its_height(robot):

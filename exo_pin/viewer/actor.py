@@ -56,7 +56,9 @@ def ghost(robot: Robot, gait: Gait, style: str, root: str, title: str) -> Actor:
     shown = motion(robot, gait, style)
     tree = linkage(robot.urdf, root, paint=GHOST)
     chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
-    return Actor(tree.commands, chain, _samples(robot, shown, tree, "ghost_"), Group(title, tree.looks))
+    return Actor(
+        tree.commands, chain, _samples(robot, shown, tree, "ghost_"), Group(f"Ghost: {title}", tree.looks)
+    )
 
 
 def aligned(gait: Gait, other: Gait) -> Gait:

@@ -19,6 +19,10 @@ NEAR_GROUND = 0.010
 """A foot whose lowest corner is this close to the lower foot's is taken to stand as well [m] (a choice)."""
 
 
+ON_A_SAMPLE = 1e-9
+"""An event this close behind a sample is meant to lie on it [s]."""
+
+
 def from_events(gait: Gait) -> Intervals | None:
     """Stance of both feet from heel strikes and toe-offs, or None where the events do not tell."""
     try:
@@ -49,8 +53,9 @@ def lowest_corners(positions: NDArray[np.float64]) -> dict[str, NDArray[np.float
 def samples(intervals: Intervals, side: str, time: NDArray[np.float64]) -> NDArray[np.bool_]:
     """`(n,)` whether the side stands at times [s] after the gait's first sample."""
     inside = np.zeros(len(time), dtype=bool)
+    moment = time + ON_A_SAMPLE  # an event that is meant to lie on a sample may miss it by rounding
     for start, end in intervals[side]:
-        inside |= (start <= time) & (time < end)
+        inside |= (start <= moment) & (moment < end)
     return inside
 
 

@@ -24,6 +24,9 @@ from exo_pin.viewer.facts import Scene
 CAMERAS = ("iso", "left", "right", "front", "back", "top", "feet")
 """Names of the clinical views, as in the page."""
 
+QUALITIES = ("high", "low")
+"""With studio light and shadows, or plain shading."""
+
 SIDES = (16, 8192)
 """Smallest and largest side of a picture [px]."""
 
@@ -64,6 +67,7 @@ def picture(
     camera: str = "iso",
     size: tuple[int, int] = (1920, 1080),
     curves: bool = False,
+    quality: str = "high",
 ) -> bytes:
     """One moment as PNG.
 
@@ -73,6 +77,7 @@ def picture(
         camera: One of `CAMERAS`.
         size: Width and height [px].
         curves: The whole page with its curves, not the 3-D picture alone.
+        quality: `"high"`: studio light and shadows, seconds to load without a graphics card; `"low"`: plain.
 
     Raises:
         DescriptionError: A size or phase is out of range.
@@ -81,7 +86,7 @@ def picture(
     """
     if not 0 <= phase <= 1:
         raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
-    with _page(scene, camera, size, curves) as browser:
+    with _page(scene, camera, size, curves, quality) as browser:
         _show(browser, phase)
         return browser.screenshot()
 
@@ -94,6 +99,7 @@ def film(
     size: tuple[int, int] = (960, 720),
     fps: float = 30.0,
     curves: bool = False,
+    quality: str = "high",
     progress: Callable[[Sequence[float]], Iterable[float]] = lambda phases: phases,
 ) -> bytes:
     """The whole walk, at the scene's playback speed, as the bytes of a GIF, WebM or MP4.
@@ -105,6 +111,7 @@ def film(
         size: Width and height [px].
         fps: Frames per second.
         curves: The whole page with its curves, not the 3-D picture alone.
+        quality: `"high"` or `"low"`.
         progress: Wraps the phases that are shown one after the other, e.g. in a progress bar.
 
     Raises:
@@ -121,13 +128,15 @@ def film(
         raise DescriptionError(f"fps is {fps:g}; 1 .. 60 is accepted")
     count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
     phases = progress([k / count for k in range(count)])
-    with _page(scene, camera, size, curves) as browser:
+    with _page(scene, camera, size, curves, quality) as browser:
         return FILMS[kind](browser, phases, fps)
 
 
 @contextmanager
-def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool) -> Iterator[Chromium]:
+def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool, quality: str) -> Iterator[Chromium]:
     """The offline page in a browser, standing still."""
+    if quality not in QUALITIES:
+        raise UnknownNameError("quality", quality, QUALITIES)
     if camera not in CAMERAS:
         raise UnknownNameError("camera", camera, CAMERAS)
     if not all(SIDES[0] <= side <= SIDES[1] for side in size):
@@ -135,7 +144,7 @@ def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool) -> Ite
     with tempfile.TemporaryDirectory(prefix="exo_pin-film-") as folder, Chromium(size) as browser:
         page = Path(folder) / "walk.html"
         page.write_text(html(scene), encoding="utf-8")
-        browser.open(f"{page.as_uri()}#quality=high")
+        browser.open(f"{page.as_uri()}#quality={quality}")
         if not browser.evaluate("exo.stage !== null"):
             raise ExoPinError("this Chromium shows no 3-D pictures (WebGL is off or missing)")
         if not curves:

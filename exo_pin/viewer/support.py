@@ -30,7 +30,7 @@ HARMONICS = 8
 """The pelvis's path keeps so many harmonics of the cycle: a support does not jerk (a choice)."""
 
 BANDWIDTH = 7.0
-"""The same for recordings [Hz]."""
+"""The same for recordings, and the least for long cycles [Hz]."""
 
 DEEPEST = 0.003
 """No sole corner may sink further into the ground than this [m]."""
@@ -156,7 +156,8 @@ def _integral(gait: Gait, rate: Array) -> Array:
 def _smooth(gait: Gait, values: Array) -> Array:
     """The low harmonics of a cycle, or of a recording continued by its point reflections at both ends."""
     if gait.periodic:
-        return _low(values, HARMONICS)
+        cycles = sum((event.side, event.kind) == ("left", "heel_strike") for event in gait.events)
+        return _low(values, max(HARMONICS * cycles, HARMONICS, round(BANDWIDTH * gait.duration)))
     line = np.linspace(values[0], values[-1], len(values))
     odd = np.concatenate([values - line, -(values - line)[-2:0:-1]])
     return line + _low(odd, max(round(2 * BANDWIDTH * gait.duration), 1))[: len(values)]

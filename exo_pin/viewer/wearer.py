@@ -38,7 +38,7 @@ SPREAD = np.radians(11.0)
 _THIGH, _SHANK, _HEAD = 0.439, 0.44, 0.8315  # the figure's own sizes [m]: hip to knee, to ankle, hip to crown
 _HIP = np.array([0.023, 0.0, -0.1])  # its hip centre seen from its pelvis, without the sideways part
 _LUMBAR = -_HIP
-_SHOULDER = np.array([0.008, 0.21, 0.324])  # seen from the lumbar joint: 0.223 + 0.176 - 0.075
+_SHOULDER = np.array([0.008, 0.182, 0.324])  # seen from the lumbar joint; nearer to the chest than 0.21
 _UPPER_ARM = 0.276
 
 
@@ -104,7 +104,7 @@ def _limb_shapes(body: Body, size: float) -> dict[str, Solid]:
     """The left limbs, as long as the body's."""
     leg = body.leg("left")
     shank = solids.joined([part("lowerleg", (0.0063, 0.007, 0.0066)), sphere(0.035)])
-    arm = solids.joined([part("upperarm", (0.0063, 0.0069, 0.006), (0, 0, 0.05)), sphere(0.034)])
+    arm = solids.joined([part("upperarm", (0.0063, 0.0069, 0.006), (0, 0, 0.05)), sphere(0.052)])
     hand = part("hand", (0.0061,) * 3, (0, 0, -0.287))
     forearm = solids.joined([part("lowerarm", (0.0064,) * 3), sphere(0.034), hand])
     return {

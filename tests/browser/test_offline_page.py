@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from exo_pin import viewer
+from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
 
 SINGLE = 1e-6  # [m]: the page computes from float32 angles and poses
@@ -387,3 +388,21 @@ def test_the_ghost_walks_on_its_own_angles(browser, robot, gait, tmp_path):
     assert knees[1] == pytest.approx(0.7 * knees[0], rel=1e-4)
     assert "weaker" in browser.evaluate("document.getElementById('toggles').textContent")
     assert browser.console == []
+
+
+def test_the_cameras_follow_a_walk_through_the_room(browser, robot, gait, tmp_path):
+    base = gait.base.copy()
+    base[:, 0, 3] += 1.3 * gait.time
+    base[:, 1, 3] -= 0.4 * gait.time
+    path = tmp_path / "away.html"
+    away = Gait(gait.time, gait.q, base=base, events=gait.events)
+    path.write_text(viewer.html(viewer.scene(robot, away)), "utf-8")
+    browser.open(path.as_uri())
+    target = "(exo.seek({0}), exo.apply(), exo.look('{1}'), exo.stage.viewer.controls.target.toArray())"
+    start = browser.evaluate(target.format(0, "left"))
+    for view in ("left", "feet", "left"):
+        end = browser.evaluate(target.format(float(gait.time[-1]), view))
+    moved = np.subtract(end, start)
+    assert moved == pytest.approx([1.3 * gait.time[-1], 0, 0.4 * gait.time[-1]], abs=1e-3)  # y up in there
+    browser.evaluate("exo.seek(0), exo.apply()")
+    assert browser.evaluate("exo.stage.viewer.controls.target.toArray()") == pytest.approx(start, abs=1e-3)

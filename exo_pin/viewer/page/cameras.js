@@ -37,9 +37,11 @@ function cameraAxes(from) {
   return [right, up, back];
 }
 
-function aim(viewer, name, boxes) {
+/** Frames a box; [x, y] is how far the walk has gone from where the boxes were taken. */
+function aim(viewer, name, boxes, [along, aside]) {
   const view = CAMERAS[name];
-  const box = boxes[view.part || "whole"];
+  const { size, center: start } = boxes[view.part || "whole"];
+  const box = { size, center: [start[0] + along, start[1] + aside, start[2]] };
   const axes = cameraAxes(view.from);
   const distance = fitDistance(box, axes, viewer.camera.aspect);
   const eye = axes[2].map((v, k) => box.center[k] + v * distance);
@@ -50,4 +52,12 @@ function aim(viewer, name, boxes) {
   viewer.controls.target.set(x, z, -y);
   viewer.controls.update();
   viewer.set_dirty();
+}
+
+/** Moves camera and target along with the walk [m]. */
+function follow(viewer, x, y) {
+  for (const point of [viewer.camera.position, viewer.controls.target]) {
+    point.x += x;
+    point.z -= y;
+  }
 }

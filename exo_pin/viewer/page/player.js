@@ -16,6 +16,7 @@ class Player {
     this.controls = new Controls(this);
     this.transport = null;
     this.drawn = null; // time of the last picture
+    this.gone = [0, 0]; // how far the cameras have followed the walk [m]
     if (this.stage) this.watchStage();
     part("show").hidden = !this.stage;
     part("webm").hidden = !Recorder.possible;
@@ -70,6 +71,7 @@ class Player {
     this.marks = new Marks(this.stage, header.marks);
     this.sliders.load(header.chains[0]);
     fillToggles(this.part("toggles"), header.groups, this.stage);
+    this.gone = [0, 0];
     this.look(this.view || "iso");
   }
 
@@ -80,11 +82,21 @@ class Player {
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
+      this.follow(at);
       this.sliders.show(this.motion.row(this.chains[0].spec.q, at));
       this.stage.viewer.set_dirty();
     }
     this.plots.draw(t, at);
     this.drawn = t;
+  }
+
+  /** Cameras go along with a walk through the room. */
+  follow(at) {
+    if (!this.header.follow) return;
+    const [x, y] = this.motion.row("base", at);
+    const gone = [x - this.motion.arrays.base.data[0], y - this.motion.arrays.base.data[1]];
+    follow(this.stage.viewer, gone[0] - this.gone[0], gone[1] - this.gone[1]);
+    this.gone = gone;
   }
 
   frame(now) {
@@ -167,7 +179,7 @@ class Player {
 
   look(name) {
     this.view = name;
-    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes);
+    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes, this.gone);
   }
 
   tell(text) {

@@ -168,7 +168,7 @@ class Plot {
 
   mark(pen, x, raw, series, k) {
     const value = raw * this.spec.factor;
-    const text = value.toFixed(this.spec.digits).replace("-", "\u2212") + this.spec.unit;
+    const text = fixed(value, this.spec.digits) + this.spec.unit;
     pen.fillStyle = this.colors[series.side];
     pen.beginPath();
     pen.arc(x, this.y.of(value), 3.2 * this.unit, 0, 7);

@@ -7,6 +7,12 @@ function roundStep(span, parts) {
   return [1, 2, 5, 10].map((k) => k * power).find((step) => step >= raw * 0.999);
 }
 
+/** A number for people: so many decimals, a true minus, and none before a zero. */
+function fixed(value, digits) {
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "\u2212");
+}
+
 /** Lowest and highest value of one column, widened a little and never flat. */
 function columnRange(arrays, column) {
   let low = Infinity;

@@ -35,7 +35,7 @@ class Sliders {
   }
 
   tell({ range, value, k }) {
-    value.textContent = `${(this.q[k] * TO_DEGREES).toFixed(0).replace("-", "\u2212")}\u00b0`;
+    value.textContent = `${fixed(this.q[k] * TO_DEGREES, 0)}\u00b0`;
     range.setAttribute("aria-valuetext", value.textContent);
   }
 
