@@ -135,7 +135,7 @@ def test_one_frame_in_plain_math_gives_what_many_frames_give(robot, rng):
     for foot in FEET:
         own = leg(robot, foot)
         ideal = closed_form_of(own)
-        formula = single.formula(ideal, own.lower.tolist(), own.upper.tolist())
+        formula = single.formula(ideal, own.lower, own.upper)
         T = poses(robot, q, (foot,))[:, 0]
         many = closed_form.angles(ideal, *chain.components(T[:, :3, :3], T[:, :3, 3])).T
         one = np.array([formula(pose.ravel().tolist()) for pose in T])

@@ -7,16 +7,18 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import batch_dls, chain, closed_form
+from exo_pin.ik import batch_dls, chain, closed_form, single
 from exo_pin.ik import nearly as start
 from exo_pin.ik.ideal import IdealLeg
 from exo_pin.ik.leg import Leg
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
-from exo_pin.ik.targets import CHUNK
+from exo_pin.ik.targets import CHUNK, Goal
 
 Array = npt.NDArray[np.float64]
+FEW = 13
+"""Up to so many samples plain `math` is quicker than arrays."""
 ROUNDING, ROUGH = 1e-13, 1e-6
 """Errors between these are worth a polish [m, rad]."""
 
@@ -29,11 +31,20 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
     for a in range(0, task.n, CHUNK):
         part = slice(a, a + CHUNK)
         R, p = chain.components(goal.R[part], goal.p[part, 0])
-        q = closed_form.angles(ideal, R, p)
+        q = one_by_one(goal, leg, ideal) if task.n <= FEW else closed_form.angles(ideal, R, p)
         np.minimum(np.maximum(q, low, out=q), high, out=q)
         sheet.errors[0, part, f], sheet.errors[1, part, f] = chain.errors(chain.forward(leg, q), R, p)
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]
+
+
+def one_by_one(goal: Goal, leg: Leg, ideal: IdealLeg) -> Array:
+    """The closed form in plain `math` for a handful of samples, angles (6, n)."""
+    assert goal.R is not None  # as above
+    solve = single.formula(ideal, leg.lower, leg.upper)
+    rows = np.zeros((len(goal.p), 4, 4))
+    rows[:, :3, :3], rows[:, :3, 3] = goal.R, goal.p[:, 0]
+    return np.array([solve(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
 
 
 def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:

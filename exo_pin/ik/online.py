@@ -142,7 +142,7 @@ class Online:
             near = closed_form_of(own, tolerance=NEARLY)
             seeds = [self.q[own.columns]]
             if near is not None:
-                seeds.append(np.array(formula(near, own.lower.tolist(), own.upper.tolist())(target)))
+                seeds.append(np.array(formula(near, own.lower, own.upper)(target)))
             for seed in seeds:
                 answer = descend(limb, self._limb_data[own.frame], seed, [goal], 0, self._settings)
                 if answer.converged:
@@ -183,7 +183,7 @@ def _bare_legs(legs: Sequence[Leg]) -> Any:
 
 def _formula(own: Leg) -> Formula | None:
     exact = closed_form_of(own)
-    return None if exact is None else formula(exact, own.lower.tolist(), own.upper.tolist())
+    return None if exact is None else formula(exact, own.lower, own.upper)
 
 
 def _together(columns: npt.NDArray[np.int64]) -> slice | npt.NDArray[np.int64]:

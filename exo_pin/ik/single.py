@@ -6,6 +6,7 @@ the others go through `closed_form` as an array of one.
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable, Sequence
 from math import acos, asin, atan, atan2, copysign, sqrt
 
@@ -20,16 +21,26 @@ from exo_pin.ik.ideal import IdealLeg
 Array = npt.NDArray[np.float64]
 Angles = tuple[float, float, float, float, float, float]
 Formula = Callable[[Sequence[float]], Angles]
+_FORMULAS: weakref.WeakKeyDictionary[IdealLeg, Formula] = weakref.WeakKeyDictionary()
 _HIPS = {(1, 0, 2): "z", (2, 0, 1): "y"}  # which thigh axes make the hip's columns 0, 1, 2
 
 
-def formula(leg: IdealLeg, lower: Sequence[float], upper: Sequence[float]) -> Formula:
-    """A function from the 16 numbers of a target pose, row by row, to the joint angles within the limits."""
+def formula(leg: IdealLeg, lower: Array, upper: Array) -> Formula:
+    """A function from the 16 numbers of a target pose, row by row, to the joint angles within the limits.
+
+    It is made once for each leg and kept.
+    """
+    if leg not in _FORMULAS:
+        _FORMULAS[leg] = _formula(leg, lower.tolist(), upper.tolist())
+    return _FORMULAS[leg]
+
+
+def _formula(leg: IdealLeg, lower: list[float], upper: list[float]) -> Formula:
     order = tuple(int(np.argmax(np.abs(leg.spread[:, j]))) for j in range(3))
     simple = all(_signed_permutation(x) for x in (leg.left, leg.right, leg.spread))
     plain = leg.lateral == 0.0 and not leg.wraps and not leg.steep and not leg.ankle[:2].any()
     if simple and plain and order in _HIPS:
-        return _straight_line(leg, list(lower), list(upper), third=_HIPS[order])
+        return _straight_line(leg, lower, upper, third=_HIPS[order])
     return _by_arrays(leg, np.asarray(lower), np.asarray(upper))
 
 
