@@ -13,6 +13,8 @@ from exo_pin.errors import ConvergenceError, ExoPinError, LimitError
 
 COMMANDS = {
     "replay": "watch the exoskeleton walk in the browser, or write one offline page",
+    "picture": "one moment of the walk as a PNG",
+    "film": "the walk as GIF, WebM or MP4",
     "check": "cross-check kinematics and inverse kinematics on a gait",
     "info": "what a gait file holds: joints, ranges, events",
     "fk": "forward kinematics: a gait's foot poses as CSV",
@@ -21,6 +23,7 @@ COMMANDS = {
     "body": "make a body file from a person's measures",
     "urdf": "the exoskeleton's URDF for a body",
     "devices": "the exoskeletons and planar models to choose from",
+    "compare": "what each device loses of a walk",
     "dh": "the Denavit-Hartenberg table for a body",
 }
 """Each command lives in the module of its name: `configure(parser)` and `run(args) -> exit code`."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, TypeVar
+
+Item = TypeVar("Item")
 
 BLOCK = 2000
 """Samples between two steps of a progress bar."""
@@ -39,10 +41,15 @@ def as_json(facts: Any) -> None:
 def blocks(n: int, label: str) -> Iterator[slice]:
     """Slices that cover n samples; a progress bar on stderr shows where the work is."""
     parts = [slice(start, min(start + BLOCK, n)) for start in range(0, n, BLOCK)]
-    if len(parts) < 3 or not sys.stderr.isatty():
-        yield from parts
+    return progress(parts, label) if len(parts) > 2 else iter(parts)
+
+
+def progress(items: Sequence[Item], label: str) -> Iterator[Item]:
+    """The items, with a progress bar on stderr if that is a terminal."""
+    if not sys.stderr.isatty():
+        yield from items
         return
     from rich.console import Console
     from rich.progress import track
 
-    yield from track(parts, description=label, console=Console(stderr=True), transient=True)
+    yield from track(items, description=label, console=Console(stderr=True), transient=True)

@@ -1,0 +1,45 @@
+"""`exo-pin film`: the walk as an animation."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from exo_pin.cli import show, walk
+from exo_pin.cli.picture import add_view, pixels
+from exo_pin.files import write_bytes
+
+_EXAMPLES = """examples:
+  exo-pin film -o walk.gif
+  exo-pin film walk.mot --camera left --size 1280x720 -o walk.webm
+  exo-pin film fast --speed 0.5 --curves -o walk.mp4
+
+GIF and WebM need Chromium (e.g. apt install chromium), MP4 and WebM with curves ffmpeg besides."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    add_view(parser, size="960x720")
+    parser.add_argument("--fps", type=float, default=25.0, help="frames per second (default: 25)")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Show frame by frame and write the film."""
+    from exo_pin.viewer import film
+
+    size = pixels(args.size)
+    scene = walk.scene(args, *walk.read(args))
+    data = film.film(
+        scene,
+        Path(args.output),
+        camera=args.camera,
+        size=size,
+        fps=args.fps,
+        curves=args.curves,
+        quality=args.quality,
+        progress=lambda phases: show.progress(phases, "film"),
+    )
+    write_bytes(args.output, data)
+    print(f"{args.output}: {size[0]} x {size[1]}, {len(data) / 1e6:.2f} MB")
+    return 0

@@ -1,0 +1,81 @@
+"""The walk that replay, picture and film show: a gait, recovered by inverse kinematics, as a scene."""
+
+from __future__ import annotations
+
+import argparse
+from math import degrees
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import options, show
+from exo_pin.errors import DescriptionError
+
+if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
+    from exo_pin.crosscheck import Recovery
+    from exo_pin.gait import Gait
+    from exo_pin.robot import Robot
+    from exo_pin.viewer import Scene
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Gait, body and playback speed."""
+    options.add_gait(parser)
+    parser.add_argument(
+        "--speed", type=float, default=1.0, metavar="F", help="playback speed 0.1 .. 2 (default: 1)"
+    )
+    options.add_body(parser)
+    options.add_hip_order(parser)
+
+
+def read(args: argparse.Namespace) -> tuple[Body, Gait]:
+    """Body and gait that the arguments name.
+
+    Raises:
+        DescriptionError: The speed is out of range, or a measure is implausible.
+    """
+    if not 0.1 <= args.speed <= 2:
+        raise DescriptionError(f"--speed is {args.speed:g}; 0.1 .. 2 is accepted")
+    body = options.body_from(args)
+    return body, options.gait_from(args, body)
+
+
+def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
+    """Solve, print the residuals, and compile the scene."""
+    from exo_pin import crosscheck, viewer
+    from exo_pin.robot import load_robot
+
+    robot = load_robot(body, hip_order=args.hip_order)
+    gait, note = options.with_events(robot, gait)
+    recovery = crosscheck.recover(robot, gait)
+    name = Path(args.gait).name
+    _print(robot, recovery, name)
+    notes = [line for line in (gait.source, note) if line]
+    title = f"{name} - exo_pin"
+    return viewer.scene(robot, recovery.gait, reference=gait, title=title, notes=notes, speed=args.speed)
+
+
+def _print(robot: Robot, recovery: Recovery, name: str) -> None:
+    """The solver's residuals and what the gait asks beyond the limits."""
+    from exo_pin import crosscheck
+
+    track, within = recovery.track, recovery.within
+    rows = [
+        ["frames", f"{len(track.q)}"],
+        ["feet reached", f"{int(track.converged.sum())}"],
+        ["largest position error", f"{track.position_error[within].max(initial=0.0):.1e} m"],
+        ["largest rotation error", f"{track.rotation_error[within].max(initial=0.0):.1e} rad"],
+    ]
+    show.table(f"{name} on the exoskeleton", ["inverse kinematics", ""], rows)
+    asked = crosscheck.limits(robot, recovery.given)
+    for joint, (low, high, frames) in asked.items():
+        if frames:
+            k = robot.joints.index(joint)
+            print(
+                f"{joint}: {frames} frames outside its limits: the gait asks {_degrees(low, high)}, "
+                f"the joint has {_degrees(robot.lower[k], robot.upper[k])}"
+            )
+
+
+def _degrees(low: float, high: float) -> str:
+    return f"{show.fixed(degrees(low))} .. {show.fixed(degrees(high))} deg"
