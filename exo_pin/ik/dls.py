@@ -22,7 +22,7 @@ from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]
 _FLOOR = 1e-13  # keeps the normal equations definite at a singular pose
-_STUCK = 1e-11  # a step this small changes nothing any more [rad, m]
+_STUCK = 1e-10  # a step this small changes nothing any more [rad, m]
 _STILL = 1e-7  # the same where the answer is a compromise with noise
 _CALMER, _STRONGER = 0.25, 4.0
 

@@ -19,13 +19,15 @@ def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
     legs = [leg(task.robot, name) for name in limb.frames]
     doubt = [0.0 if chain is None else chain.doubt for chain in legs]
     short = np.asarray((sheet.slack[:, places] < np.negative(doubt)).any(axis=1))
+    asked = sum(goal.local.size + (3 if goal.R is not None else 0) for goal in goals)
+    enough = limb.model.nv >= asked  # fewer joints than equations: a compromise is all that can be had
     own = task.seed.ndim == 2
     seed = limb.middle if own else task.seed[limb.q]
     for k in range(task.n):
         if own:
             seed = task.seed[k, limb.q]
         free = k == 0 and not own
-        answer = best_try(limb, data, seed, goals, k, settings, reachable=not short[k], free=free)
+        answer = best_try(limb, data, seed, goals, k, settings, reachable=enough and not short[k], free=free)
         sheet.q[k, limb.q] = answer.q
         sheet.errors[:, k, places] = answer.errors
         sheet.steps[k] += answer.steps
