@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import anatomy as anatomy
+    from exo_pin import compare as compare
     from exo_pin import crosscheck as crosscheck
     from exo_pin import description as description
     from exo_pin import devices as devices
@@ -41,7 +42,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
 __version__ = "0.1.0"
 
 _HOMES = {
-    "exo_pin": "anatomy crosscheck description devices dh formats gait ik kinematics viewer",
+    "exo_pin": "anatomy compare crosscheck description devices dh formats gait ik kinematics viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",

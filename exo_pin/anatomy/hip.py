@@ -39,6 +39,25 @@ def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Ar
     return np.stack(_yxz_of_zxy(a, b, c), axis=-1) * signs
 
 
+def hip_angles(R: npt.ArrayLike, side: str) -> Array:
+    """Clinical hip angles of a thigh's rotation.
+
+    Args:
+        R: Rotation of the thigh seen from the pelvis (..., 3, 3).
+        side: `"left"` or `"right"`.
+
+    Returns:
+        Flexion, adduction, internal rotation (..., 3) [rad]; adduction within +-90 degrees.
+
+    Raises:
+        UnknownNameError: The side is unknown.
+    """
+    R = np.asarray(R, dtype=float)
+    b = np.arctan2(-R[..., 1, 2], np.hypot(R[..., 1, 0], R[..., 1, 1]))
+    yxz = np.arctan2(R[..., 0, 2], R[..., 2, 2]), b, np.arctan2(R[..., 1, 0], R[..., 1, 1])
+    return np.stack(yxz, axis=-1) * _signs(side)
+
+
 def _signs(side: str) -> Array:
     """Flexion turns about -y; adduction and rotation about +x and +z on the right, -x and -z on the left."""
     if side not in SIDES:

@@ -24,6 +24,7 @@ COMMANDS = {
     "urdf": "the exoskeleton's URDF for a body",
     "devices": "the exoskeletons and planar models to choose from",
     "compare": "what each device loses of a walk",
+    "compare": "what each device loses of a walk",
     "dh": "the Denavit-Hartenberg table for a body",
 }
 """Each command lives in the module of its name: `configure(parser)` and `run(args) -> exit code`."""

@@ -1,0 +1,109 @@
+"""`exo-pin compare`: one walk on many devices, and what each of them loses."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import options, show
+from exo_pin.errors import DescriptionError
+from exo_pin.files import write_text
+
+if TYPE_CHECKING:
+    from exo_pin.compare import Comparison
+
+_EXAMPLES = """examples:
+  exo-pin compare                                all devices under the normal walk
+  exo-pin compare walk.mot --devices lokomat lopes8 mine.toml
+  exo-pin compare fast --pelvis device           each pelvis as its device holds it
+  exo-pin compare --passive released             passive joints move as it suits the feet
+  exo-pin compare -o table.md                    also .csv and .json
+
+For every device: the best motion towards the recorded feet (least squares over the corners of the soles,
+within the joint limits), and the plain copy of its joints. docs/devices.md explains the columns."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    options.add_gait(parser)
+    parser.add_argument(
+        "--devices", nargs="+", metavar="DEVICE", help="names or device files (default: all of them)"
+    )
+    parser.add_argument(
+        "--pelvis",
+        choices=("recorded", "device"),
+        default="recorded",
+        help="who moves the pelvis: the recorded walk (default), or each device as it can",
+    )
+    parser.add_argument(
+        "--passive",
+        choices=("held", "released"),
+        default="held",
+        help="passive joints: held at zero (default), or moving freely",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write .md, .csv or .json as well")
+    options.add_body(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compare and print."""
+    from exo_pin import devices
+    from exo_pin.compare import Conditions, compare
+
+    chosen = [devices.find(name) for name in args.devices or devices.DEVICES]
+    _check_output(args.output)
+    body = options.body_from(args)
+    comparison = compare(
+        options.gait_from(args, body), chosen, body, conditions=Conditions(args.pelvis, args.passive)
+    )
+    if args.json:
+        show.as_json(comparison.facts())
+    else:
+        _print(comparison, Path(args.gait).name)
+    if args.output:
+        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](comparison))
+    return 0
+
+
+def _print(comparison: Comparison, name: str) -> None:
+    from exo_pin.compare import PHASES, table
+
+    print(table.conditions(comparison))
+    show.table(f"What each device loses of {name}", table.COLUMNS, table.rows(comparison))
+    if comparison.walk.gait.events:
+        columns = ("sole rms mm", *PHASES)
+        show.table("By phase of the foot's cycle", columns, table.phase_rows(comparison))
+
+
+def _check_output(output: str | None) -> None:
+    if output is not None and Path(output).suffix.lower() not in _WRITERS:
+        raise DescriptionError(f"{output}: {', '.join(_WRITERS)} are accepted")
+
+
+def _markdown(comparison: Comparison) -> str:
+    from exo_pin.compare import PHASES, table
+
+    parts = [
+        table.conditions(comparison) + "\n",
+        table.markdown(table.COLUMNS, table.rows(comparison)),
+        table.markdown(("sole rms mm", *PHASES), table.phase_rows(comparison)),
+    ]
+    return "\n".join(parts)
+
+
+def _csv(comparison: Comparison) -> str:
+    from exo_pin.compare import table
+
+    return table.csv(table.COLUMNS, table.rows(comparison))
+
+
+def _json(comparison: Comparison) -> str:
+    return json.dumps(comparison.facts(), indent=2) + "\n"
+
+
+_WRITERS: dict[str, Callable[[Comparison], str]] = {".md": _markdown, ".csv": _csv, ".json": _json}

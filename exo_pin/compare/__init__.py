@@ -1,0 +1,20 @@
+"""What a device loses of a walk: its best motion towards the recorded feet, and what is left to wish."""
+
+from exo_pin.compare.comparison import Comparison, compare
+from exo_pin.compare.loss import Loss
+from exo_pin.compare.motion import CONDITIONS, Conditions, Motion, Walk, best, projected, walk
+from exo_pin.compare.phases import PHASES
+
+__all__ = [
+    "CONDITIONS",
+    "PHASES",
+    "Comparison",
+    "Conditions",
+    "Loss",
+    "Motion",
+    "Walk",
+    "best",
+    "compare",
+    "projected",
+    "walk",
+]

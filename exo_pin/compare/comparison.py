@@ -1,0 +1,89 @@
+"""Devices side by side: one `Loss` each for the best motion and for the plain copy."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from exo_pin import devices as known
+from exo_pin.anatomy import Body
+from exo_pin.compare.loss import Loss, clearance, number, step_width
+from exo_pin.compare.motion import GRANTED, Conditions, Walk, best, projected, robot_for, walk
+from exo_pin.devices import Device
+from exo_pin.errors import GaitError
+from exo_pin.gait import Gait
+from exo_pin.kinematics import events
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What each device loses of one walk.
+
+    Attributes:
+        walk: The recorded walk on the full exoskeleton.
+        conditions: What the devices were granted.
+        best: The best motions, least loss first.
+        projected: The plain copies, in the same order of devices.
+    """
+
+    walk: Walk
+    conditions: Conditions
+    best: tuple[Loss, ...]
+    projected: tuple[Loss, ...]
+
+    def facts(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        body, gait = self.walk.robot.body, self.walk.gait
+        return {
+            "gait": {"source": gait.source, "samples": len(gait), "duration_s": gait.duration},
+            "body": {} if body is None else {"stature_m": body.stature, "mass_kg": body.mass},
+            "conditions": dataclasses.asdict(self.conditions),
+            "recorded": {
+                "step_width_mm": number(1e3 * step_width(self.walk, self.walk.feet)),
+                "clearance_mm": number(1e3 * clearance(self.walk, self.walk.corners)),
+            },
+            "best": [loss.facts() for loss in self.best],
+            "projected": [loss.facts() for loss in self.projected],
+        }
+
+
+def compare(
+    gait: Gait,
+    devices: Iterable[str | Device] = tuple(known.DEVICES),
+    body: Body | None = None,
+    *,
+    conditions: Conditions = GRANTED,
+) -> Comparison:
+    """Put every device through the same walk.
+
+    Args:
+        gait: The walk; without events of its own they are found from its kinematics, if it has cycles.
+        devices: Names, device files or records; all known ones if left out.
+        body: Who wears them; `Body.from_stature()` if left out.
+        conditions: What the devices are granted.
+
+    Raises:
+        UnknownNameError: A device is unknown.
+    """
+    body = Body.from_stature() if body is None else body
+    recorded = walk(gait, body)
+    if not gait.events:
+        recorded = dataclasses.replace(recorded, gait=_with_events(recorded))
+    pairs = []
+    for device in map(known.find, devices):
+        robot = robot_for(device, body, conditions)
+        done = (best(recorded, robot, conditions), projected(recorded, robot, conditions))
+        pairs.append(tuple(Loss(device, recorded, motion) for motion in done))
+    pairs.sort(key=lambda pair: (round(pair[0].rms, 9), pair[0].device.motors))
+    return Comparison(
+        recorded, conditions, tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
+    )
+
+
+def _with_events(recorded: Walk) -> Gait:
+    try:
+        return dataclasses.replace(recorded.gait, events=events(recorded.robot, recorded.gait))
+    except GaitError:  # no cycles in it: phases, step width and clearance are then unknown
+        return recorded.gait

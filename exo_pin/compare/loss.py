@@ -1,0 +1,167 @@
+"""What one device loses: errors of the feet, step width, clearance, joint angles, centre of mass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.compare.motion import Motion, Walk
+from exo_pin.compare.phases import masks
+from exo_pin.devices import Device
+
+Array = npt.NDArray[np.float64]
+
+WATCHED = ("hip_flexion", "knee_flexion")
+"""Movements whose change against the recorded walk is told."""
+
+
+@dataclass(frozen=True, eq=False)
+class Loss:
+    """A device's motion against the recorded walk.
+
+    Attributes:
+        device: The device.
+        walk: The recorded walk.
+        motion: What the device does.
+    """
+
+    device: Device
+    walk: Walk
+    motion: Motion
+
+    @cached_property
+    def sole_error(self) -> Array:
+        """Root mean square distance of a foot's four sole corners from the recorded ones (n, 2) [m]."""
+        squares = ((self.motion.corners - self.walk.corners) ** 2).sum(axis=-1)
+        return np.asarray(np.sqrt(squares.mean(axis=-1)))
+
+    @cached_property
+    def position_error(self) -> Array:
+        """Distance of the foot frames from the recorded ones (n, 2) [m]."""
+        gap = self.motion.feet[..., :3, 3] - self.walk.feet[..., :3, 3]
+        return np.asarray(np.linalg.norm(gap, axis=-1))
+
+    @cached_property
+    def rotation_error(self) -> Array:
+        """Angle between the feet and the recorded ones (n, 2) [rad]."""
+        R = self.motion.feet[..., :3, :3].swapaxes(-1, -2) @ self.walk.feet[..., :3, :3]
+        twist = R - R.swapaxes(-1, -2)
+        sine = np.linalg.norm(twist[..., [2, 0, 1], [1, 2, 0]], axis=-1) / 2
+        return np.asarray(np.arctan2(sine, (np.trace(R, axis1=-2, axis2=-1) - 1) / 2))
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of `sole_error` over both feet and the walk [m]: what devices are ranked by."""
+        return root_mean_square(self.sole_error)
+
+    @cached_property
+    def by_phase(self) -> dict[str, float]:
+        """Root mean square of `sole_error` in each phase of the foot's own cycle [m]; NaN without events."""
+        parts = [masks(self.walk.gait, side) for side in SIDES]
+        return {
+            name: root_mean_square(np.concatenate([self.sole_error[parts[k][name], k] for k in range(2)]))
+            for name in parts[0]
+        }
+
+    @property
+    def step_width(self) -> float:
+        """Sideways distance of the feet at heel strikes, mean [m]; NaN without events."""
+        return step_width(self.walk, self.motion.feet)
+
+    @property
+    def step_width_lost(self) -> float:
+        """Recorded minus the device's step width [m]; NaN without events."""
+        return step_width(self.walk, self.walk.feet) - self.step_width
+
+    @property
+    def clearance(self) -> float:
+        """Least height of the swinging sole over the standing one in mid swing [m]; NaN without events."""
+        return clearance(self.walk, self.motion.corners)
+
+    @property
+    def clearance_lost(self) -> float:
+        """Recorded minus the device's clearance [m]; NaN without events."""
+        return clearance(self.walk, self.walk.corners) - self.clearance
+
+    @cached_property
+    def angle_change(self) -> dict[str, float]:
+        """Largest difference of hip and knee flexion from the angles asked for, either side [rad]."""
+        change = np.abs(self.motion.gait.q - self.motion.asked).max(axis=0)
+        return {m: float(max(change[JOINTS.index(f"{side}_{m}")] for side in SIDES)) for m in WATCHED}
+
+    @cached_property
+    def ranges(self) -> dict[str, tuple[float, float, int]]:
+        """By joint of the device: smallest and largest value [rad, m], number of samples at a limit."""
+        robot, q = self.motion.robot, self.motion.q
+        at_limit = ((q - robot.lower <= 1e-9) | (robot.upper - q <= 1e-9)).sum(axis=0)
+        return {
+            joint: (float(q[:, j].min()), float(q[:, j].max()), int(at_limit[j]))
+            for j, joint in enumerate(robot.joints)
+        }
+
+    @property
+    def com_error(self) -> float:
+        """Root mean square distance of the centre of mass from the recorded walk's [m]."""
+        return root_mean_square(np.linalg.norm(self.motion.com - self.walk.com, axis=1))
+
+    def facts(self) -> dict[str, Any]:
+        """Plain numbers for JSON; millimetres and degrees as the names say, None where events are missing."""
+        ranges = {
+            joint: {"min": low, "max": high, "samples_at_limit": n}
+            for joint, (low, high, n) in self.ranges.items()
+        }
+        return {
+            "device": self.device.name,
+            "motors": self.device.motors,
+            "sole_error_mm": _spread(self.sole_error, 1e3),
+            "position_error_mm": _spread(self.position_error, 1e3),
+            "rotation_error_deg": _spread(self.rotation_error, float(np.degrees(1.0))),
+            "sole_error_by_phase_mm": {name: number(1e3 * x) for name, x in self.by_phase.items()},
+            "step_width_mm": number(1e3 * self.step_width),
+            "step_width_lost_mm": number(1e3 * self.step_width_lost),
+            "clearance_mm": number(1e3 * self.clearance),
+            "clearance_lost_mm": number(1e3 * self.clearance_lost),
+            "angle_change_deg": {m: float(np.degrees(x)) for m, x in self.angle_change.items()},
+            "com_error_mm": 1e3 * self.com_error,
+            "joint_ranges_rad": ranges,
+        }
+
+
+def root_mean_square(values: Array) -> float:
+    """Root of the mean of squares; NaN of nothing."""
+    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
+
+
+def step_width(recorded: Walk, feet: Array) -> float:
+    """Sideways distance of the feet at the recorded heel strikes, across the mean heading [m]."""
+    strikes = [e.time for e in recorded.gait.events if e.kind == "heel_strike"]
+    if not strikes:
+        return float("nan")
+    forward = recorded.base[:, :2, 0].mean(axis=0)
+    across = np.array([-forward[1], forward[0]]) / np.linalg.norm(forward)
+    rows = [int(np.argmin(np.abs(recorded.gait.time - t))) for t in strikes]
+    return float(np.mean((feet[rows, 0, :2, 3] - feet[rows, 1, :2, 3]) @ across))
+
+
+def clearance(recorded: Walk, corners: Array) -> float:
+    """Least height of the lower swinging corner over the lowest corner of the other foot in mid swing [m]."""
+    lowest = corners[..., 2].min(axis=-1)  # (n, 2)
+    gaps = []
+    for k, side in enumerate(SIDES):
+        swing = masks(recorded.gait, side)["mid swing"]
+        gaps += list(lowest[swing, k] - lowest[swing, 1 - k])
+    return float(min(gaps)) if gaps else float("nan")
+
+
+def number(value: float) -> float | None:
+    """The value, or None for NaN, which JSON does not know."""
+    return None if np.isnan(value) else float(value)
+
+
+def _spread(values: Array, scale: float) -> dict[str, float]:
+    return {"rms": scale * root_mean_square(values), "max": scale * float(values.max())}

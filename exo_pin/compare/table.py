@@ -1,0 +1,83 @@
+"""Comparisons as tables: the same rows for the terminal, Markdown and CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from exo_pin.compare.comparison import Comparison
+from exo_pin.compare.loss import Loss
+
+COLUMNS = (
+    "device",
+    "motors",
+    "sole rms mm",
+    "sole max mm",
+    "foot rms mm",
+    "foot rms deg",
+    "copy rms mm",
+    "width lost mm",
+    "clearance lost mm",
+    "knee change deg",
+    "com rms mm",
+)
+"""Headings. Sole: of the soles' corners; foot: of the foot frames; copy: the sole in the plain copy."""
+
+
+def rows(comparison: Comparison) -> list[list[str]]:
+    """One row of text per device, least loss first."""
+    return [_row(*pair) for pair in zip(comparison.best, comparison.projected, strict=True)]
+
+
+def phase_rows(comparison: Comparison) -> list[list[str]]:
+    """By device: the sole's error in each phase of the foot's cycle [mm]."""
+    return [
+        [loss.device.name, *(_fixed(1e3 * value) for value in loss.by_phase.values())]
+        for loss in comparison.best
+    ]
+
+
+def markdown(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+    """A Markdown table."""
+    table = [columns, ["---", *["---:"] * (len(columns) - 1)], *lines]
+    return "\n".join("| " + " | ".join(line) + " |" for line in table) + "\n"
+
+
+def csv(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+    """A CSV table; units stand at the end of the names, `_` between words."""
+    return "\n".join(",".join(line) for line in [[c.replace(" ", "_") for c in columns], *lines]) + "\n"
+
+
+def conditions(comparison: Comparison) -> str:
+    """What was compared, in a sentence."""
+    walk, granted = comparison.walk, comparison.conditions
+    body = walk.robot.body
+    who = "" if body is None else f"body {body.stature:g} m, {body.mass:g} kg; "
+    pelvis = {
+        "recorded": "every pelvis moves as recorded",
+        "device": "every pelvis as its device holds it (upright; slides as they suit the feet)",
+    }[granted.pelvis]
+    return (
+        f"{walk.gait.source or 'gait'}: {len(walk.gait)} samples, {walk.gait.duration:.2f} s; {who}{pelvis}; "
+        f"passive joints {granted.passive}; the default joint limits or the device's own are kept."
+    )
+
+
+def _row(best: Loss, copied: Loss) -> list[str]:
+    facts = best.facts()
+    values = [
+        facts["sole_error_mm"]["rms"],
+        facts["sole_error_mm"]["max"],
+        facts["position_error_mm"]["rms"],
+        facts["rotation_error_deg"]["rms"],
+        1e3 * copied.rms,
+        1e3 * best.step_width_lost,
+        1e3 * best.clearance_lost,
+        facts["angle_change_deg"]["knee_flexion"],
+        facts["com_error_mm"],
+    ]
+    return [best.device.name, str(best.device.motors), *map(_fixed, values)]
+
+
+def _fixed(value: float) -> str:
+    """One decimal, no minus before a zero; `-` where the gait has no events."""
+    return "-" if value != value else f"{round(value, 1) + 0.0:.1f}"

@@ -1,0 +1,210 @@
+"""Comparison of devices: what is exact comes out exact, and what is lost has the right size and sign."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from exo_pin import ik
+from exo_pin.anatomy import FEET, JOINTS, Body
+from exo_pin.anatomy.hip import hip_angles
+from exo_pin.cli import main
+from exo_pin.compare import PHASES, Conditions, best, compare, projected, table, walk
+from exo_pin.compare.motion import SETTINGS, corners, robot_for
+from exo_pin.compare.phases import masks, percent
+from exo_pin.devices import DEVICES, find, subset
+from exo_pin.errors import UnknownNameError
+from exo_pin.formats import load_gait
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.kinematics import poses
+from exo_pin.robot import load_robot
+
+GAIT = normative_gait().resampled(16)
+BODY = Body.from_stature()
+EXACT = 1e-8  # ten times what the solver is asked for, in metres
+
+
+@pytest.fixture(scope="module")
+def held():
+    return compare(GAIT)
+
+
+def _loss(comparison, name, which="best"):
+    return next(loss for loss in getattr(comparison, which) if loss.device.name == name)
+
+
+def test_twelve_joints_lose_nothing(held):
+    loss = held.best[0]
+    assert loss.device.name == "exo12"
+    assert max(loss.sole_error.max(), loss.position_error.max()) <= EXACT
+    assert loss.rotation_error.max() <= EXACT
+    assert loss.step_width_lost == pytest.approx(0, abs=EXACT)
+    assert loss.clearance_lost == pytest.approx(0, abs=EXACT)
+    assert loss.com_error <= EXACT
+
+
+def test_twelve_joints_find_the_feet_from_another_start(rng):
+    recorded = walk(GAIT)
+    robot = recorded.robot
+    start = np.clip(robot.from_gait(GAIT) + rng.normal(0, 0.1, (16, 12)), robot.lower, robot.upper)
+    local = (
+        np.linalg.inv(recorded.feet[0])
+        @ np.pad(recorded.corners[0], ((0, 0), (0, 0), (0, 1)), constant_values=1).swapaxes(-1, -2)
+    ).swapaxes(-1, -2)[..., :3]
+    targets = {foot: ik.Points(local[k], recorded.corners[:, k]) for k, foot in enumerate(FEET)}
+    track = ik.track(robot, targets, start, base=recorded.base, settings=SETTINGS)
+    reached = corners(robot, poses(robot, track.q, FEET, base=recorded.base))
+    assert np.abs(reached - recorded.corners).max() <= EXACT
+
+
+def test_the_corners_are_those_of_the_model():
+    from exo_pin.anatomy import CORNERS
+
+    recorded = walk(GAIT, Body.from_stature(1.6, left_ball=0.09))
+    frames = poses(recorded.robot, recorded.robot.from_gait(GAIT), CORNERS, base=recorded.base)
+    assert recorded.corners.reshape(16, 8, 3) == pytest.approx(frames[..., :3, 3], abs=1e-12)
+
+
+@pytest.mark.parametrize("pelvis", ["recorded", "device"])
+def test_the_best_motion_is_never_worse_than_the_plain_copy(pelvis):
+    comparison = compare(GAIT, ["lokomat", "lopes8", "h2"], conditions=Conditions(pelvis))
+    for better, plain in zip(comparison.best, comparison.projected, strict=True):
+        assert np.all((better.sole_error**2).sum(axis=1) <= (plain.sole_error**2).sum(axis=1) + EXACT)
+
+
+def test_a_better_motion_cannot_be_found_by_shaking_it(rng):
+    recorded = walk(GAIT)
+    robot = robot_for(find("lopes7"), BODY, Conditions())
+    found = best(recorded, robot)
+    cost = ((found.corners - recorded.corners) ** 2).sum(axis=(1, 2, 3))
+    for size in (1e-2, 1e-4):
+        shaken = np.clip(found.q + rng.normal(0, size, found.q.shape), robot.lower, robot.upper)
+        feet = poses(robot, shaken, FEET, base=recorded.base)
+        assert np.all(((corners(robot, feet) - recorded.corners) ** 2).sum(axis=(1, 2, 3)) >= cost - 1e-12)
+
+
+def test_motions_keep_the_joint_limits(held):
+    for loss in (*held.best, *held.projected):
+        loss.motion.robot.check_limits(loss.motion.q)
+
+
+def test_more_joints_never_lose_more():
+    order = ("hip_flexion", "knee_flexion", "hip_adduction", "ankle_dorsiflexion", "hip_rotation")
+    names = [subset(order[: k + 2], name=f"s{k}") for k in range(4)]
+    losses = {loss.device.name: loss.rms for loss in compare(GAIT, names).best}
+    assert all(losses[f"s{k + 1}"] <= losses[f"s{k}"] + EXACT for k in range(3))
+
+
+def test_devices_of_the_same_joints_lose_the_same_under_the_recorded_pelvis(held):
+    same = [_loss(held, name).rms for name in ("lokomat", "hk4", "planar5")]
+    assert same == pytest.approx([same[0]] * 3, abs=EXACT)
+
+
+def test_a_planar_gait_is_exact_on_a_planar_device():
+    q = np.array(GAIT.q)
+    for side in ("left", "right"):
+        for movement in ("hip_adduction", "hip_rotation", "ankle_inversion"):
+            q[:, JOINTS.index(f"{side}_{movement}")] = 0.0
+    flat = dataclasses.replace(GAIT, q=q)
+    assert compare(flat, ["planar7"]).best[0].rms <= EXACT
+
+
+def test_the_error_of_a_planar_device_is_the_sideways_one(held):
+    gap = _loss(held, "planar7").motion.feet[..., :3, 3] - held.walk.feet[..., :3, 3]
+    sideways, total = np.abs(gap[..., 1]), np.linalg.norm(gap, axis=-1)
+    assert sideways.mean() > 0.9 * total.mean()
+
+
+def test_a_held_pelvis_stands_still_upright_and_slides_move_it():
+    comparison = compare(GAIT, ["exo12", "lokomat", "h2"], conditions=Conditions("device"))
+    still = _loss(comparison, "exo12").motion.gait.base
+    assert np.array_equal(still, np.tile(still[:1], (16, 1, 1)))
+    assert still[0, 2, :3] == pytest.approx([0, 0, 1])
+    slid = _loss(comparison, "lokomat").motion.gait.base[:, :3, 3]
+    assert np.ptp(slid, axis=0)[:2] == pytest.approx([0, 0], abs=1e-12)
+    assert np.ptp(slid[:, 2]) > 1e-3
+    assert np.array_equal(_loss(comparison, "h2").motion.gait.base, GAIT.base)  # it goes with the person
+
+
+def test_on_a_held_pelvis_the_plain_copy_keeps_the_thighs_attitude():
+    recorded, conditions = walk(GAIT), Conditions("device")
+    copied = projected(recorded, robot_for(find("exo12"), BODY, conditions), conditions)
+    gap = copied.feet[..., :3, :3] - recorded.feet[..., :3, :3]
+    assert np.abs(gap).max() < 1e-9
+
+
+def test_a_walk_over_ground_takes_the_stand_along():
+    base = np.array(GAIT.base)
+    base[:, 0, 3] += 1.3 * GAIT.time
+    over = Gait(GAIT.time, GAIT.q, base=base)
+    loss = compare(over, ["exo12"], conditions=Conditions("device")).best[0]
+    assert loss.motion.gait.base[:, 0, 3] == pytest.approx(1.3 * GAIT.time, abs=1e-3)
+    assert loss.rms < 0.005
+
+
+def test_hip_angles_undo_the_hip_joints(rng):
+    robot = load_robot()
+    q = rng.uniform(robot.lower, robot.upper, (50, 12))
+    R = poses(robot, q, ("left_thigh", "right_thigh"), base=np.eye(4))[..., :3, :3]
+    assert hip_angles(R[:, 0], "left") == pytest.approx(q[:, 0:3], abs=1e-9)
+    assert hip_angles(R[:, 1], "right") == pytest.approx(q[:, 6:9], abs=1e-9)
+
+
+def test_released_joints_lose_less_than_held_ones(held):
+    released = compare(GAIT, ["lokomat", "h2"], conditions=Conditions(passive="released"))
+    for loss in released.best:
+        assert loss.rms < _loss(held, loss.device.name).rms
+
+
+def test_phases_cover_the_cycle_once():
+    gait = normative_gait()
+    for side in ("left", "right"):
+        assert sum(mask.astype(int) for mask in masks(gait, side).values()).tolist() == [1] * 100
+        stance = gait.stance(side)
+        assert np.array_equal(percent(gait, side) < 62.0, stance)
+
+
+def test_phases_of_a_recording_shorter_than_a_stride(shared):
+    gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
+    loss = compare(gait, ["lokomat"]).best[0]
+    assert set(loss.by_phase) == set(PHASES)
+    assert np.isfinite(list(loss.by_phase.values())).all()
+    assert np.isfinite([loss.clearance_lost, loss.step_width_lost]).all()
+
+
+def test_without_events_phases_are_unknown_and_errors_are_not():
+    gait = Gait(GAIT.time[:5], GAIT.q[:5])
+    loss = compare(gait, ["lokomat"]).best[0]
+    assert np.isnan(list(loss.by_phase.values())).all()
+    assert np.isnan(loss.clearance)
+    assert np.isfinite(loss.rms)
+    json.dumps(loss.facts(), allow_nan=False)
+
+
+def test_the_table_has_every_device_least_loss_first(held):
+    rows = table.rows(held)
+    assert {row[0] for row in rows} == set(DEVICES)
+    losses = [float(row[2]) for row in rows]
+    assert losses == sorted(losses)
+    assert all(len(row) == len(table.COLUMNS) for row in rows)
+
+
+def test_unknown_conditions_are_refused():
+    with pytest.raises(UnknownNameError, match="pelvis"):
+        Conditions(pelvis="flying")
+
+
+def test_the_command_prints_json_and_writes_tables(tmp_path, capsys):
+    words = ["compare", "slow", "--devices", "exo12", "hk4", "--json"]
+    assert main([*words, "-o", str(tmp_path / "t.csv")]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert [d["device"] for d in facts["best"]] == ["exo12", "hk4"]
+    lines = (tmp_path / "t.csv").read_text().splitlines()
+    assert [line.split(",")[0] for line in lines] == ["device", "exo12", "hk4"]
+
+
+@pytest.mark.parametrize("words", [["--devices", "hal"], ["-o", "t.docx"], ["none.mot"]])
+def test_the_command_refuses_what_it_does_not_know(words, capsys):
+    assert main(["compare", *words]) == 2
+    assert capsys.readouterr().err.startswith("exo-pin: ")
