@@ -1,0 +1,107 @@
+"""The verdict over a gait on a robot: every cross-check, and the joint limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exo_pin import ik
+from exo_pin.crosscheck.recovery import IK_TOLERANCE, Recovery, recover
+from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+
+
+@dataclass(frozen=True, eq=False)
+class Check:
+    """The verdict over one gait on one robot.
+
+    Attributes:
+        fk: Largest difference to Pinocchio by witness.
+        recovery: The inverse kinematics' round trip.
+        limits: By joint: smallest and largest angle [rad], number of frames outside the robot's limits.
+        agreement: Largest difference between the closed form's and the iterative solver's angles [rad], where
+            `Recovery.comparable`.
+    """
+
+    fk: dict[str, float]
+    recovery: Recovery
+    limits: dict[str, tuple[float, float, int]]
+    agreement: float
+
+    @property
+    def fk_ok(self) -> bool:
+        """All witnesses agree with Pinocchio."""
+        return max(self.fk.values()) <= FK_TOLERANCE
+
+    @property
+    def ik_ok(self) -> bool:
+        """Every frame within limits was recovered."""
+        track, within = self.recovery.track, self.recovery.within
+        errors = np.maximum(track.position_error, track.rotation_error)[within]
+        return bool(track.converged[within].all() and (errors <= IK_TOLERANCE).all())
+
+    @property
+    def limits_ok(self) -> bool:
+        """No joint leaves its limits in any frame."""
+        return not any(frames for _, _, frames in self.limits.values())
+
+    @property
+    def ok(self) -> bool:
+        """All of the above."""
+        return self.fk_ok and self.ik_ok and self.limits_ok
+
+    def facts(self) -> dict[str, Any]:
+        """The verdict as plain numbers for JSON: metres, radians and degrees as the names say."""
+        track, within = self.recovery.track, self.recovery.within
+        angles = np.degrees(np.abs(self.recovery.angle_error[self.recovery.comparable]))
+        return {
+            "fk_max_difference": self.fk,
+            "ik": {
+                "frames": len(track.q),
+                "frames_within_limits": int(within.sum()),
+                "converged": int(track.converged.sum()),
+                "max_position_error_m": float(track.position_error[within].max(initial=0.0)),
+                "max_rotation_error_rad": float(track.rotation_error[within].max(initial=0.0)),
+                "max_angle_error_deg": float(angles.max(initial=0.0)),
+                "method_agreement_deg": float(np.degrees(self.agreement)),
+            },
+            "limits": {
+                joint: {"min": float(np.degrees(low)), "max": float(np.degrees(high)), "violated_frames": n}
+                for joint, (low, high, n) in self.limits.items()
+            },
+            "ok": self.ok,
+        }
+
+
+def check(robot: Robot, gait: Gait, *, seed: int = 0) -> Check:
+    """Every cross-check of a gait on a robot.
+
+    Args:
+        robot: A robot made from a `Body`.
+        gait: The walk.
+        seed: Seed of the random configurations that join the gait's own in the forward check.
+    """
+    rng = np.random.default_rng(seed)
+    random = rng.uniform(robot.lower, robot.upper, (1000, len(robot.joints)))
+    recovery = recover(robot, gait)
+    other = recover(robot, gait, settings=ik.Dls())
+    difference = np.abs(recovery.gait.q - other.gait.q)[recovery.comparable]
+    return Check(
+        forward(robot, np.concatenate([robot.from_gait(gait), random])),
+        recovery,
+        limits(robot, gait),
+        float(difference.max(initial=0.0)),
+    )
+
+
+def limits(robot: Robot, gait: Gait) -> dict[str, tuple[float, float, int]]:
+    """By joint: smallest and largest angle [rad], and in how many frames it is outside the robot's limits."""
+    angles = robot.angles(robot.from_gait(gait))
+    outside = ((angles < robot.lower - 1e-9) | (angles > robot.upper + 1e-9)).sum(axis=0)
+    return {
+        joint: (float(angles[:, j].min()), float(angles[:, j].max()), int(outside[j]))
+        for j, joint in enumerate(robot.joints)
+    }

@@ -1,0 +1,81 @@
+"""Forward kinematics four ways: the witnesses of `dh` and yourdfpy against Pinocchio."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin import dh
+from exo_pin.anatomy import FEET, JOINTS
+from exo_pin.errors import DescriptionError
+from exo_pin.kinematics import poses
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+FK_TOLERANCE = 1e-12
+"""Largest difference between two ways of forward kinematics [m, and of a rotation matrix's entries]."""
+
+_SAMPLES = 200
+"""Configurations that yourdfpy is asked for: it takes a millisecond each."""
+
+_GRID = 6
+"""Decimals of the angles that yourdfpy is asked for: the scene graph below it leaves out turns, and changes
+of a turn, below 1e-8 rad."""
+
+
+def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
+    """Largest difference to Pinocchio of each witness: positions [m] and rotation matrices' entries.
+
+    Args:
+        robot: A robot made from a `Body`.
+        q: Configurations (n, nq) [rad]; at most 200 of them, evenly chosen and rounded to
+            a microradian, are given to yourdfpy.
+
+    Returns:
+        `recursion`, `dh` and `yourdfpy`: over every joint's link, locked joints too, and both feet.
+
+    Raises:
+        DescriptionError: The robot is not an exoskeleton of this package.
+    """
+    if robot.body is None or robot.base != "fixed":
+        raise DescriptionError("the witness needs a robot that load_robot made with a fixed base")
+    q = np.asarray(q, dtype=float).reshape(-1, robot.nq)
+    few = q[np.unique(np.linspace(0, len(q) - 1, _SAMPLES).astype(int))]
+    body, order = robot.body, robot.hip_order
+
+    def by(witness: Callable[..., dict[str, Array]], q: Array) -> dict[str, Array]:
+        angles = dict(zip(robot.joints, robot.angles(q).T, strict=True))
+        return dh.of_device(body, angles, hip_order=order, witness=witness)
+
+    witnesses: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
+        "recursion": (q, lambda q: by(dh.recursion, q)),
+        "dh": (q, lambda q: by(dh.modified_dh, q)),
+        "yourdfpy": (np.round(few, _GRID), lambda q: _yourdfpy(robot, q)),
+    }
+    return {name: _difference(robot, q, witness(q)) for name, (q, witness) in witnesses.items()}
+
+
+def _difference(robot: Robot, q: Array, poses_of: dict[str, Array]) -> float:
+    """Largest difference in any entry of any pose, all relative to the pelvis (or the stand it slides on)."""
+    names = tuple(poses_of)
+    ours = poses(robot, q, names, base=np.eye(4))
+    return float(max(np.abs(poses_of[name] - ours[:, k]).max() for k, name in enumerate(names)))
+
+
+def _yourdfpy(robot: Robot, q: Array) -> dict[str, Array]:
+    """Poses by yourdfpy, which reads the same URDF with code of its own."""
+    import yourdfpy  # 0.5 s, needed here only
+
+    scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
+    links = {joint: scene.joint_map[joint].child for joint in (*robot.joints, *JOINTS)}
+    links |= {foot: foot for foot in FEET}
+    out = {name: np.empty((len(q), 4, 4)) for name in links}
+    for k, row in enumerate(q):
+        scene.update_cfg(dict(zip(robot.joints, row, strict=True)))
+        for name, link in links.items():
+            out[name][k] = scene.get_transform(link, scene.base_link)
+    return out
