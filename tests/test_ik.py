@@ -126,6 +126,23 @@ def test_out_of_reach_is_flagged_with_its_amount(robot, settings):
     robot.check_limits(track.q, tolerance=0.0)
 
 
+@pytest.mark.parametrize("settings", [ik.Auto(), ik.Dls()])
+def test_a_target_that_leaves_the_reach_is_followed_without_a_jump(robot, settings):
+    """Half a millimetre a sample: at the end of reach the knee straightens like a square root."""
+    n, step = 120, 0.0005
+    T = np.tile(poses(robot, robot.q({"left_knee_flexion": 0.3, "left_hip_flexion": 0.2}))[0], (n, 1, 1))
+    T[:, 2, 3] -= step * np.arange(n)
+    track = ik.track(robot, {"left_foot": T}, settings=settings)
+    out = track.reach_slack[:, 0] < 0.0
+    assert 30 < out.sum() < 110
+    assert not track.converged[out].any()
+    assert track.converged[~out].all()
+    jumps = np.abs(np.diff(track.q, axis=0)).max(axis=1)
+    assert np.degrees(jumps.max()) < 5.0
+    assert np.degrees(jumps[out[:-1]].max()) < 0.2
+    assert (track.position_error[out, 0] <= -track.reach_slack[out, 0] + 1e-9).all()
+
+
 def test_solve_raises_with_the_best_try(robot, settings):
     targets = {foot: T[0] for foot, T in feet(robot, robot.q()[None]).items()}
     targets["left_foot"] = targets["left_foot"] @ np.diag([1.0, 1.0, 1.0, 1.0])

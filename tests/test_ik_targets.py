@@ -123,6 +123,18 @@ def test_a_heavier_weight_brings_the_target_nearer(robot):
     assert near.rotation_error[0, 0] > even.rotation_error[0, 0]
 
 
+def test_a_weight_of_zero_leaves_that_part_free(robot):
+    T = poses(robot, walk(robot, 3))[:, 0]
+    far = T.copy()
+    far[:, 2, 3] -= 2.0
+    turned = ik.track(robot, {"left_foot": ik.Pose(far, position_weight=0.0)})
+    assert turned.converged.all()
+    np.testing.assert_allclose(poses(robot, turned.q)[:, 0, :3, :3], T[:, :3, :3], atol=1e-8)
+    placed = ik.track(robot, {"left_foot": ik.Pose(T, rotation_weight=0.0)})
+    assert placed.converged.all()
+    assert np.isnan(placed.rotation_error).all()
+
+
 def test_fewer_joints_are_answered_by_least_squares(robot):
     """A leg with its rotation and inversion locked, made from the same URDF."""
     text = robot.urdf

@@ -93,5 +93,6 @@ def _limbs(task: Problem) -> Iterator[tuple[Limb, int, Leg | None]]:
     for limb in task.limbs:
         places = task.places_of(limb)
         goal = task.goals[places[0]]
-        single = len(places) == 1 and goal.R is not None and not limb.floats
+        full = goal.R is not None and bool((goal.weight > 0.0).all())
+        single = len(places) == 1 and full and not limb.floats
         yield limb, places[0], leg(task.robot, goal.frame) if single else None

@@ -26,8 +26,8 @@ class Pose:
 
     Attributes:
         T: T_world_frame (n, 4, 4), or (4, 4) for `solve`.
-        position_weight: Multiplies the position error.
-        rotation_weight: Multiplies the rotation error.
+        position_weight: Multiplies the position error; 0: the position is left free.
+        rotation_weight: Multiplies the rotation error; 0: the rotation is left free.
     """
 
     T: npt.ArrayLike
@@ -86,11 +86,6 @@ class Goal:
     R: Array | None
     weight: Array
     rotation_weight: float
-
-    @property
-    def plain(self) -> bool:
-        """Whether this is a full pose with all weights one."""
-        return self.R is not None and self.rotation_weight == 1.0 and bool((self.weight == 1.0).all())
 
 
 def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> tuple[list[Goal], int]:
@@ -201,7 +196,7 @@ def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
         T = _fits(frame, carry, len(T)) @ T
     ones = np.full((len(T), 1), _weight(frame, pose.position_weight))
     turn = _weight(frame, pose.rotation_weight)
-    return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], T[:, :3, :3], ones, turn)
+    return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], T[:, :3, :3] if turn else None, ones, turn)
 
 
 def _points(frame: str, target: Points, carry: Array | None) -> Goal:
