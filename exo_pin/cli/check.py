@@ -35,7 +35,8 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait = options.gait_from(args, body)
-    verdict = crosscheck.check(robot, gait)
+    with show.busy("cross-checking"):
+        verdict = crosscheck.check(robot, gait)
     if args.json:
         show.as_json(verdict.facts())
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 Item = TypeVar("Item")
@@ -42,6 +43,18 @@ def blocks(n: int, label: str) -> Iterator[slice]:
     """Slices that cover n samples; a progress bar on stderr shows where the work is."""
     parts = [slice(start, min(start + BLOCK, n)) for start in range(0, n, BLOCK)]
     return progress(parts, label) if len(parts) > 2 else iter(parts)
+
+
+@contextmanager
+def busy(label: str) -> Iterator[None]:
+    """A moving mark on stderr while something takes its time, if that is a terminal."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(f"{label} ..."):
+        yield
 
 
 def progress(items: Sequence[Item], label: str) -> Iterator[Item]:

@@ -13,7 +13,6 @@ from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 
-
 _ITERATED = 1000
 
 
