@@ -13,6 +13,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import description as description
     from exo_pin import devices as devices
     from exo_pin import dh as dh
+    from exo_pin import feasible as feasible
     from exo_pin import formats as formats
     from exo_pin import gait as gait
     from exo_pin import ik as ik
@@ -42,7 +43,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
 __version__ = "0.1.0"
 
 _HOMES = {
-    "exo_pin": "anatomy compare crosscheck description devices dh formats gait ik kinematics viewer",
+    "exo_pin": "anatomy compare crosscheck description devices dh feasible formats gait ik kinematics viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",

@@ -12,7 +12,7 @@ from exo_pin.anatomy.hip import hip_angles
 from exo_pin.cli import main
 from exo_pin.compare import PHASES, Conditions, best, compare, projected, table, walk
 from exo_pin.compare.motion import SETTINGS, corners, robot_for
-from exo_pin.compare.phases import masks, percent
+from exo_pin.gait.phases import masks, percent
 from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait

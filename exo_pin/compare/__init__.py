@@ -3,7 +3,7 @@
 from exo_pin.compare.comparison import Comparison, compare
 from exo_pin.compare.loss import Loss
 from exo_pin.compare.motion import CONDITIONS, Conditions, Motion, Walk, best, projected, walk
-from exo_pin.compare.phases import PHASES
+from exo_pin.gait.phases import PHASES
 
 __all__ = [
     "CONDITIONS",

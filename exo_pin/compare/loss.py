@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.compare.motion import Motion, Walk
-from exo_pin.compare.phases import masks
 from exo_pin.devices import Device
+from exo_pin.gait.phases import masks
 
 Array = npt.NDArray[np.float64]
 

@@ -1,0 +1,10 @@
+"""Whether a device can do a walk with a person: limits, self-collision, reach, and how much is possible.
+
+Torques are not asked here: they need the ground's forces.
+"""
+
+from exo_pin.feasible.collision import Nearest, nearest
+from exo_pin.feasible.limits import ACCELERATION, JointDemand, demands
+from exo_pin.feasible.verdict import Feasibility, feasible
+
+__all__ = ["ACCELERATION", "Feasibility", "JointDemand", "Nearest", "demands", "feasible", "nearest"]

@@ -1,0 +1,146 @@
+"""Feasibility: the verdict turns where a limit is crossed, and the factors lead exactly to the limit."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from exo_pin.anatomy import JOINTS, Body
+from exo_pin.cli import main
+from exo_pin.errors import UnknownNameError
+from exo_pin.feasible import feasible, nearest
+from exo_pin.feasible.verdict import FASTEST, MOST, scaled
+from exo_pin.formats import load_gait
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.robot import load_robot
+
+GAIT = normative_gait().resampled(50)
+JUST = 1e-3  # a factor this much beyond the limit must fail, this much below must pass
+KNEE = JOINTS.index("left_knee_flexion")
+
+
+@pytest.fixture(scope="module")
+def free():
+    return feasible(GAIT)
+
+
+def test_the_normal_walk_can_be_done(free):
+    assert free.ok
+    assert not free.failures
+    assert not free.dropped
+    assert free.cadence > 1
+    assert free.amplitude > 1
+
+
+def test_the_largest_cadence_is_where_it_stops_to_be_possible(free):
+    assert feasible(GAIT.slowed(1 / (free.cadence * (1 - JUST)))).ok
+    verdict = feasible(GAIT.slowed(1 / (free.cadence * (1 + JUST))))
+    assert not verdict.ok
+    assert verdict.cadence == pytest.approx(1 / (1 + JUST))
+    assert {how for _, how, _ in verdict.failures} <= {"too fast", "accelerated too hard"}
+
+
+def test_the_largest_amplitude_is_where_it_stops_to_be_possible(free):
+    assert feasible(scaled(GAIT, free.amplitude * (1 - JUST))).ok
+    assert not feasible(scaled(GAIT, free.amplitude * (1 + JUST))).ok
+
+
+def test_a_joint_outside_its_range_is_named_with_margin_and_phase():
+    body = Body.from_stature(limits={"left_knee_flexion": (0.0, np.radians(50))})
+    verdict = feasible(GAIT, body=body)
+    assert not verdict.ok
+    name, how, mask = verdict.failures[0]
+    assert (name, how) == ("left_knee_flexion", "outside its range")
+    assert np.array_equal(mask, GAIT.q[:, KNEE] > np.radians(50))
+    assert "initial swing" in verdict.phases(mask, name)
+    knee = next(d for d in verdict.joints if d.joint == name)
+    assert knee.margin == pytest.approx(np.radians(50) - GAIT.q[:, KNEE].max())
+    assert feasible(scaled(GAIT, verdict.amplitude * (1 - JUST)), body=body).ok
+
+
+def test_a_recording_that_hyperextends_is_refused_and_its_amplitude_told(shared):
+    gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
+    verdict = feasible(gait)
+    assert {name for name, _, _ in verdict.failures} == {"left_knee_flexion", "right_knee_flexion"}
+    assert 0.5 < verdict.amplitude < 1
+
+
+def test_locked_joints_are_told_and_do_not_enter_the_verdict():
+    verdict = feasible(GAIT, "hk4")
+    assert verdict.ok
+    assert len(verdict.dropped) == 8
+    assert verdict.dropped["left_ankle_dorsiflexion"] == pytest.approx(
+        np.abs(GAIT.q[:, JOINTS.index("left_ankle_dorsiflexion")]).max()
+    )
+    assert {d.joint for d in verdict.joints} == set(JOINTS) - set(verdict.dropped)
+
+
+@pytest.mark.parametrize("device", ["exo12", "lopes8", "planar9"])
+def test_standing_legs_are_apart_by_what_their_shapes_leave(device):
+    robot = load_robot(device=device)
+    body = robot.body
+    thighs = body.hip_width - 2 * 0.16 * body.left_thigh  # two capsules beside each other
+    found = nearest(robot, robot.q()[None])
+    assert found.distance[0] == pytest.approx(thighs, abs=1e-5)
+    assert found.pairs == [("left_thigh", "right_thigh")]
+
+
+def test_crossed_legs_collide():
+    q = np.zeros((20, 12))
+    cross = np.radians(20) * np.sin(2 * np.pi * np.arange(20) / 20)
+    for side in ("left", "right"):
+        q[:, JOINTS.index(f"{side}_hip_adduction")] = cross
+    verdict = feasible(Gait(np.arange(20) / 10, q))
+    assert not verdict.ok
+    (name, how, mask), *_ = verdict.failures
+    assert how == "too near"
+    assert name.startswith("left_")
+    assert "right_" in name
+    assert not mask[0]
+    assert mask[5]
+    assert 0.1 < verdict.amplitude < 1
+    apart = feasible(scaled(Gait(np.arange(20) / 10, q), verdict.amplitude)).colliding
+    assert not apart.any()
+
+
+def test_a_gap_that_no_walk_keeps_leaves_no_amplitude():
+    verdict = feasible(GAIT, gap=0.2)
+    assert not verdict.ok
+    assert verdict.amplitude == 0
+
+
+def test_reach_is_what_a_stretched_knee_would_add(free):
+    leg = free.robot.body.leg("left")
+    bent = GAIT.q[:, KNEE].min()
+    asked = np.sqrt(leg.thigh**2 + leg.shank**2 + 2 * leg.thigh * leg.shank * np.cos(bent))
+    assert free.reach["left"] == pytest.approx(leg.thigh + leg.shank - asked)
+    stiff = Body.from_stature(limits={"left_knee_flexion": (np.radians(10), 2.0)})
+    assert feasible(GAIT, body=stiff).reach["left"] < 0
+
+
+def test_standing_still_is_possible_at_any_speed():
+    verdict = feasible(Gait(np.arange(5) / 10, np.zeros((5, 12))))
+    assert verdict.ok
+    assert (verdict.cadence, verdict.amplitude) == (FASTEST, MOST)
+    json.dumps(verdict.facts(), allow_nan=False)
+
+
+def test_speed_and_acceleration_limits_count():
+    slow = dataclasses.replace(GAIT, events=())
+    verdict = feasible(slow, acceleration=20.0)
+    assert {how for _, how, _ in verdict.failures} == {"accelerated too hard"}
+    assert verdict.cadence < 1
+
+
+def test_the_command_answers_with_its_exit_code(capsys):
+    assert main(["feasible", "slow", "--device", "lokomat", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["ok"]
+    assert main(["feasible", "slow", "--gap", "100"]) == 1
+    assert "too near" in capsys.readouterr().out
+    assert main(["feasible", "slow", "--acceleration", "-1"]) == 2
+
+
+def test_unknown_devices_are_refused():
+    with pytest.raises(UnknownNameError):
+        feasible(GAIT, "hal")
