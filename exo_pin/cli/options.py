@@ -35,14 +35,19 @@ def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -
 
 
 def gait_from(args: argparse.Namespace, body: Body) -> Gait:
-    """The gait that the arguments name; a normal walk's stride time follows the body's legs."""
-    if args.gait in SPEEDS and not Path(args.gait).exists():
+    """The gait that the arguments name."""
+    return load(args.gait, body, preset=args.preset)
+
+
+def load(name: str, body: Body, *, preset: str | None = None) -> Gait:
+    """A gait by file or speed; a normal walk's stride time follows the body's legs."""
+    if name in SPEEDS and not Path(name).exists():
         from exo_pin.gait import normative_gait
 
-        return normative_gait(args.gait, leg_length=body.leg_length)
+        return normative_gait(name, leg_length=body.leg_length)
     from exo_pin.formats import load_gait
 
-    return load_gait(args.gait, preset=args.preset)
+    return load_gait(name, preset=preset)
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:

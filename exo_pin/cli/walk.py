@@ -24,6 +24,13 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--speed", type=float, default=1.0, metavar="F", help="playback speed 0.1 .. 2 (default: 1)"
     )
+    parser.add_argument("--compare", metavar="GAIT", help="a second walk, shown as a ghost beside the first")
+    parser.add_argument(
+        "--support",
+        choices=("carried", "still"),
+        default="carried",
+        help="carried: the pelvis follows so that the standing foot stays on the belt (default); still: held",
+    )
     options.add_body(parser)
     options.add_hip_order(parser)
 
@@ -51,8 +58,18 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     name = Path(args.gait).name
     _print(robot, recovery, name)
     notes = [line for line in (gait.source, note) if line]
-    title = f"{name} - exo_pin"
-    return viewer.scene(robot, recovery.gait, reference=gait, title=title, notes=notes, speed=args.speed)
+    second = None if args.compare is None else options.load(args.compare, body, preset=args.preset)
+    return viewer.scene(
+        robot,
+        recovery.gait,
+        reference=gait,
+        compare=second,
+        compare_title=Path(args.compare or "").name,
+        title=f"{name} - exo_pin",
+        support=args.support,
+        notes=notes,
+        speed=args.speed,
+    )
 
 
 def _print(robot: Robot, recovery: Recovery, name: str) -> None:
