@@ -56,3 +56,9 @@ def test_an_explicit_reference_keeps_the_dashes(gait):
         load_robot(), gait, compare=normative_gait("slow"), reference=gait, reference_title="measured"
     ).facts
     assert facts.reference == "measured"
+
+
+def test_a_walk_recorded_elsewhere_is_brought_beside_the_first(gait):
+    turned = np.array([[0.0, -1, 0, 3], [1, 0, 0, -2], [0, 0, 1, 0], [0, 0, 0, 1]])
+    elsewhere = replace(gait, base=turned @ gait.base)
+    assert aligned(gait, elsewhere).base == pytest.approx(gait.base, abs=SAME)

@@ -65,21 +65,37 @@ def aligned(gait: Gait, other: Gait) -> Gait:
     """Another gait sampled on a gait's clock.
 
     Cycles are laid over each other from left heel strike to left heel strike, whatever their durations;
-    recordings run side by side from their starts, the shorter one waiting at its end.
+    recordings run side by side from their starts, the shorter one waiting at its end. The other pelvis starts
+    where the gait's does and heads the same way, wherever in its laboratory it was recorded.
     """
     n = len(gait)
     if gait.periodic and other.periodic:
         fitted = other.slowed(gait.duration / other.duration).resampled(n)
         shift = round(n * (_strike(gait) - _strike(other)))
-        base = None if fitted.base is None else np.roll(fitted.base, shift, axis=0)
+        base = None if fitted.base is None else _brought(gait, np.roll(fitted.base, shift, axis=0))
         return Gait(
             gait.time, np.roll(fitted.q, shift, axis=0), base=base, periodic=True, source=other.source
         )
     step = gait.duration / (n if gait.periodic else n - 1)
     even = other.resampled(max(round(other.duration / step) + 1, 2))
     rows = np.minimum(np.arange(n), len(even) - 1)
-    base = None if even.base is None else even.base[rows]
+    base = None if even.base is None else _brought(gait, even.base[rows])
     return Gait(gait.time, even.q[rows], base=base, periodic=gait.periodic, source=other.source)
+
+
+def _brought(gait: Gait, base: Array) -> Array:
+    """The base poses `(n, 4, 4)` turned about the vertical and shifted level to a gait's own start."""
+    own = np.eye(4)[None] if gait.base is None else gait.base
+    turn = np.angle(_heading(own) * np.conj(_heading(base)))
+    T = np.eye(4)
+    T[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    T[:2, 3] = own[0, :2, 3] - T[:2, :2] @ base[0, :2, 3]
+    return np.asarray(T @ base)
+
+
+def _heading(base: Array) -> complex:
+    """Mean forward direction of a pelvis on the ground, as a complex number."""
+    return complex(base[:, 0, 0].mean(), base[:, 1, 0].mean())
 
 
 def flat_poses(T: Array) -> Array:
