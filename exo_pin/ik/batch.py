@@ -12,6 +12,7 @@ from exo_pin.ik import nearly as start
 from exo_pin.ik.ideal import IdealLeg
 from exo_pin.ik.leg import Leg
 from exo_pin.ik.problem import Problem
+from exo_pin.ik.reach import slack, slack_of
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
@@ -34,6 +35,7 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
         q = one_by_one(goal, leg, ideal) if task.n <= FEW else closed_form.angles(ideal, R, p)
         np.minimum(np.maximum(q, low, out=q), high, out=q)
         sheet.errors[0, part, f], sheet.errors[1, part, f] = chain.errors(chain.forward(leg, q), R, p)
+        sheet.slack[part, f] = slack(leg, R, p)
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]
 
@@ -72,6 +74,7 @@ def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> No
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]
     sheet.errors[:, :, f] = np.inf
+    sheet.slack[:, f] = slack_of(leg, goal)
 
 
 def descent(

@@ -5,35 +5,29 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.chain import mix
-from exo_pin.ik.leg import Leg, leg
-from exo_pin.ik.problem import Problem
-from exo_pin.ik.targets import CHUNK
+from exo_pin.ik.chain import Matrix, Number, components, mix
+from exo_pin.ik.leg import Leg
+from exo_pin.ik.targets import CHUNK, Goal
 
 Array = npt.NDArray[np.float64]
 
 
-def slack(task: Problem) -> Array:
-    """Reach minus distance from the hip centre to the ankle of the target pose (n, F) [m].
+def slack(leg: Leg, R: Matrix, p: list[Number]) -> Array:
+    """Reach minus distance from the hip centre to the ankle of the target pose (m,) [m].
 
-    Negative where the leg is too short by that much. NaN for targets without a rotation, for frames that are
-    not carried by six joints, and for a floating base that is solved too.
+    Negative where the leg is too short by that much.
     """
-    out = np.full((task.n, len(task.goals)), np.nan)
-    if any(limb.floats for limb in task.limbs):
+    ankle = [float(x) for x in leg.ankle_in_frame]
+    apart = [x - float(hip) + mix(row, ankle) for x, hip, row in zip(p, leg.hip, R, strict=True)]
+    return np.asarray(leg.reach - np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))
+
+
+def slack_of(leg: Leg | None, goal: Goal) -> Array:
+    """The slack of all samples (n,); NaN for targets without a rotation and frames that no leg carries."""
+    out = np.full(len(goal.p), np.nan)
+    if leg is None or goal.R is None:
         return out
-    for f, goal in enumerate(task.goals):
-        chain = leg(task.robot, goal.frame)
-        if chain is None or goal.R is None:
-            continue
-        for a in range(0, task.n, CHUNK):
-            part = slice(a, a + CHUNK)
-            out[part, f] = chain.reach - _distance(chain, goal.R[part], goal.p[part, 0])
+    for a in range(0, len(out), CHUNK):
+        part = slice(a, a + CHUNK)
+        out[part] = slack(leg, *components(goal.R[part], goal.p[part, 0]))
     return out
-
-
-def _distance(chain: Leg, R: Array, p: Array) -> Array:
-    """From the hip centre to the ankle of each target (m,) [m]."""
-    ankle, hip = [float(x) for x in chain.ankle_in_frame], chain.hip
-    apart = [p[:, i] - hip[i] + mix([R[:, i, j] for j in range(3)], ankle) for i in range(3)]
-    return np.asarray(np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))

@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.ik.problem import Problem
-from exo_pin.ik.reach import slack
 from exo_pin.ik.result import Track
 
 Array = npt.NDArray[np.float64]
@@ -25,7 +24,7 @@ class Sheet:
         errors: Distance and angle of each frame (2, n, F).
         steps: Steps spent on each sample (n,).
         solver: Index into `SOLVED_BY` (n,).
-        slack: Room up to the end of reach (n, F) [m].
+        slack: Room up to the end of reach (n, F) [m]; NaN where there is none to speak of.
     """
 
     q: Array
@@ -41,7 +40,8 @@ class Sheet:
         q = np.empty((n, task.robot.nq))
         q[:] = task.rest
         errors = np.full((2, n, len(task.frames)), np.nan)
-        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), slack(task))
+        room = np.full((n, len(task.frames)), np.nan)
+        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), room)
 
     def track(self, task: Problem, tolerance: float) -> Track:
         """The finished answer."""

@@ -15,6 +15,7 @@ from exo_pin.ik.ideal import IdealLeg, ideal
 from exo_pin.ik.leg import Leg, leg
 from exo_pin.ik.limb import Limb
 from exo_pin.ik.problem import Problem
+from exo_pin.ik.reach import slack_of
 from exo_pin.ik.result import Track
 from exo_pin.ik.sequential import follow
 from exo_pin.ik.settings import Auto, ClosedForm, Dls
@@ -80,6 +81,9 @@ def descend(task: Problem, settings: Dls) -> Track:
 
 def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, sheet: Sheet) -> None:
     """All samples at once where they do not wait for each other, else one after the other."""
+    for place in task.places_of(limb) if not limb.floats else ():
+        goal = task.goals[place]
+        sheet.slack[:, place] = slack_of(leg(task.robot, goal.frame), goal)
     apart = task.seed.ndim == 2 or not settings.warm_start
     if own is None or not apart or task.n < 2 or settings.damping:
         follow(task, limb, settings, sheet)
