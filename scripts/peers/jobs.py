@@ -88,13 +88,13 @@ def verdict(robot, job, q):
     return 100 * hit.mean(), apart.max()
 
 
-def best_time(function, budget):
+def best_time(function, budget, clock=time.perf_counter):
     """The shortest of several runs [s], and what the function returned: the machine has other work, too."""
     shortest, spent, answer = np.inf, 0.0, None
     while spent < budget or answer is None:
-        start = time.perf_counter()
+        start = clock()
         answer = function()
-        took = time.perf_counter() - start
+        took = clock() - start
         shortest, spent = min(shortest, took), spent + took
     return shortest, answer
 

@@ -42,7 +42,7 @@ def flat(cost, folder):
 
     figure, axes = plt.subplots(figsize=(7, 2.6))
     axes.plot(list(cost), list(cost.values()), color=BLUE, marker="o", label="ik.track, verified")
-    axes.set(xscale="log", xlabel="frames in one call", ylabel="us per frame", ylim=(0, None))
+    axes.set(xscale="log", xlabel="frames in one call", ylabel="CPU us per frame", ylim=(0, None))
     _finish(figure, axes, folder / "ik_flat.svg")
 
 
