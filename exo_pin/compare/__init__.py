@@ -1,6 +1,7 @@
 """What a device loses of a walk: its best motion towards the recorded feet, and what is left to wish."""
 
 from exo_pin.compare.comparison import Comparison, compare
+from exo_pin.compare.joints import Worth, worth
 from exo_pin.compare.loss import Loss
 from exo_pin.compare.motion import CONDITIONS, Conditions, Motion, Walk, best, projected, walk
 from exo_pin.gait.phases import PHASES
@@ -13,8 +14,10 @@ __all__ = [
     "Loss",
     "Motion",
     "Walk",
+    "Worth",
     "best",
     "compare",
     "projected",
     "walk",
+    "worth",
 ]

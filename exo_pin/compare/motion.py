@@ -129,7 +129,9 @@ def projected(recorded: Walk, robot: Robot, conditions: Conditions = GRANTED) ->
     return _motion(recorded, robot, _copy(recorded, robot, asked), base, asked)
 
 
-def best(recorded: Walk, robot: Robot, conditions: Conditions = GRANTED) -> Motion:
+def best(
+    recorded: Walk, robot: Robot, conditions: Conditions = GRANTED, *, settings: ik.Dls = SETTINGS
+) -> Motion:
     """The device's best motion towards the recorded feet, within its joint limits."""
     base = _stand(recorded, robot, conditions)
     asked = _asked(recorded, base)
@@ -137,7 +139,7 @@ def best(recorded: Walk, robot: Robot, conditions: Conditions = GRANTED) -> Moti
         foot: ik.Points(_soles(recorded.robot)[k], recorded.corners[:, k]) for k, foot in enumerate(FEET)
     }
     start = _copy(recorded, robot, asked)
-    track = ik.track(robot, targets, start, base=base, settings=SETTINGS)
+    track = ik.track(robot, targets, start, base=base, settings=settings)
     return _motion(recorded, robot, track.q, base, asked)
 
 

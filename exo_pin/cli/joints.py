@@ -1,0 +1,99 @@
+"""`exo-pin joints`: which joints of a leg are worth their motor."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import options, show
+from exo_pin.errors import DescriptionError
+from exo_pin.files import write_text
+
+if TYPE_CHECKING:
+    from exo_pin.compare import Worth
+
+_EXAMPLES = """examples:
+  exo-pin joints                     the normal walk
+  exo-pin joints walk.mot -o pareto.svg     the figure; also .md, .csv (all 64 choices) and .json
+
+Every choice of the six movements of a leg is tried, the same on both legs: what the soles then miss when the
+device does its best and the pelvis moves as recorded. It takes about half a minute."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    options.add_gait(parser)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write .svg, .md, .csv or .json as well")
+    options.add_body(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Try all choices and print."""
+    from exo_pin.compare import worth
+
+    if args.output is not None and Path(args.output).suffix.lower() not in _WRITERS:
+        raise DescriptionError(f"{args.output}: {', '.join(_WRITERS)} are accepted")
+    body = options.body_from(args)
+    gait = options.gait_from(args, body)
+    study = worth(gait, body, progress=lambda choices: show.progress(list(choices), "choices of joints"))
+    if args.json:
+        show.as_json(study.facts())
+    else:
+        show.table(f"Best choice for each number of motors: {Path(args.gait).name}", _FRONT, _front(study))
+        show.table("One movement locked, or added after the others", _SINGLE, _single(study))
+    if args.output:
+        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](study))
+    return 0
+
+
+_FRONT = ("driven, each leg", "motors", "sole rms mm")
+_SINGLE = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
+
+
+def _front(study: Worth) -> list[list[str]]:
+    return [
+        [", ".join(chosen) or "none", str(motors), show.fixed(1e3 * loss)]
+        for motors, chosen, loss in study.pareto
+    ]
+
+
+def _single(study: Worth) -> list[list[str]]:
+    places = {movement: (k, left) for k, (movement, left) in enumerate(study.add_one_in, 1)}
+    return [
+        [m, show.fixed(1e3 * loss), f"{places[m][0]}.", show.fixed(1e3 * places[m][1])]
+        for m, loss in study.leave_one_out.items()
+    ]
+
+
+def _svg(study: Worth) -> str:
+    from exo_pin.compare.figure import pareto_svg
+
+    return pareto_svg(study)
+
+
+def _markdown(study: Worth) -> str:
+    from exo_pin.compare import table
+
+    return table.markdown(_FRONT, _front(study)) + "\n" + table.markdown(_SINGLE, _single(study))
+
+
+def _csv(study: Worth) -> str:
+    from exo_pin.compare import table
+
+    rows = [
+        ["+".join(x["movements"]) or "none", str(x["motors"]), f"{x['sole_rms_mm']:.4f}"]
+        for x in study.facts()["all"]
+    ]
+    return table.csv(("driven", "motors", "sole rms mm"), rows)
+
+
+def _json(study: Worth) -> str:
+    return json.dumps(study.facts(), indent=2) + "\n"
+
+
+_WRITERS: dict[str, Callable[[Worth], str]] = {".svg": _svg, ".md": _markdown, ".csv": _csv, ".json": _json}
