@@ -12,13 +12,14 @@ import pytest
 
 from exo_pin.anatomy import CORNERS, JOINTS, MOVEMENTS, Body
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import SPEEDS, normative_gait, schwartz2008
+from exo_pin.gait import SPEEDS, normative_gait, normative_sd, schwartz2008, schwartz2008_sd
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 
 ROUNDING = 1e-12  # [rad, s]
 SPECTRAL = 1e-9  # [rad/s^2]
 FIT = 0.6  # [deg] what eight harmonics leave of the source's curves, DOMAIN.md section 5
+SPREAD_FIT = 1.1  # [deg] what four harmonics leave of the source's standard deviations; most within 0.5
 FLAT = np.radians(3)  # fore-and-aft slope of the sole in mid-stance, the number
 ROLL = np.radians(4)  # sideways slope: the ankle's inversion is a weak channel
 MID_STANCE = (0.12, 0.31)  # Perry's mid-stance, as a part of the cycle
@@ -77,6 +78,29 @@ def test_the_script_writes_the_coefficients_again_byte_for_byte(shared, tmp_path
         [*script, str(shared / "normative_gait.csv"), "-o", str(target)], check=True, capture_output=True
     )
     assert target.read_bytes() == Path(schwartz2008.__file__).read_bytes()
+    spread = target.with_name("schwartz2008_sd.py")
+    assert spread.read_bytes() == Path(schwartz2008_sd.__file__).read_bytes()
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_the_spreads_follow_the_source(shared, speed):
+    sd = np.degrees(normative_sd(speed))
+    for movement in MOVEMENTS:
+        weak = movement == "ankle_inversion"
+        source = ("ofm_oxford", "unspecified") if weak else ("schwartz2008", speed)
+        with (shared / "normative_gait.csv").open() as file:
+            rows = [r for r in csv.DictReader(file) if (r["source"], r["condition"]) == source]
+        percent = [int(float(row["percent"])) % 100 for row in rows]
+        mine = sd[percent, JOINTS.index(f"left_{movement}")]
+        np.testing.assert_allclose(mine, [float(r[f"{movement}_sd"]) for r in rows], atol=SPREAD_FIT)
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_spreads_are_positive_and_the_right_leg_has_them_half_a_cycle_later(speed):
+    sd = normative_sd(speed, samples=200)
+    assert sd.shape == (200, 12)
+    assert sd.min() > 0
+    np.testing.assert_allclose(np.roll(sd[:, :6], 100, axis=0), sd[:, 6:], atol=ROUNDING)
 
 
 @pytest.mark.parametrize("speed", SPEEDS)
@@ -184,6 +208,10 @@ def test_without_the_pelvis_turning_the_feet_would_not_meet_the_ground():
 def test_impossible_requests_are_refused():
     with pytest.raises(UnknownNameError, match="did you mean 'very_fast'"):
         normative_gait("veryfast")
+    with pytest.raises(UnknownNameError, match="very_fast"):
+        normative_sd("veryfast")
+    with pytest.raises(GaitError, match="samples"):
+        normative_sd(samples=0)
     with pytest.raises(GaitError, match="at least 17"):
         normative_gait(samples=16)
     for length in (93.0, 0.0, float("nan")):

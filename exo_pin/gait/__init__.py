@@ -4,7 +4,7 @@ from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.doubts import doubts
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.events import zeni
-from exo_pin.gait.normative import SPEEDS, normative_gait
+from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
 from exo_pin.gait.spatiotemporal import NORMAL, Number, against_normal, spatiotemporal
 from exo_pin.gait.walk import Gait
 
@@ -20,6 +20,7 @@ __all__ = [
     "cycles",
     "doubts",
     "normative_gait",
+    "normative_sd",
     "spatiotemporal",
     "zeni",
 ]
