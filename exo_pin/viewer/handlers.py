@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from tornado.httputil import HTTPServerRequest
 from tornado.web import Application, HTTPError, RequestHandler
@@ -10,11 +10,27 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from exo_pin.viewer.page import policy
 
-if TYPE_CHECKING:
-    from exo_pin.viewer.server import Server
+
+class Desk(Protocol):
+    """What the handlers ask of the server that they answer for."""
+
+    def allows(self, host: str) -> bool:
+        """Whether a request with this Host header is answered."""
+
+    def page(self, host: str) -> str:
+        """The page for a browser that asked this host."""
+
+    def joined(self, client: Live) -> None:
+        """A page opened its connection."""
+
+    def heard(self, message: str | bytes) -> None:
+        """A page said something."""
+
+    def left(self, client: Live) -> None:
+        """A page closed its connection."""
 
 
-def application(server: Server) -> Application:
+def application(server: Desk) -> Application:
     """The routes of the server."""
     known = {"server": server}
     return Application(
@@ -25,7 +41,7 @@ def application(server: Server) -> Application:
     )
 
 
-def check_host(server: Server, request: HTTPServerRequest) -> None:
+def check_host(server: Desk, request: HTTPServerRequest) -> None:
     """Refuse requests that were addressed to another name (DNS rebinding) with 404."""
     if not server.allows(request.host):
         raise HTTPError(404)
@@ -42,7 +58,7 @@ class Nothing(RequestHandler):
 class Page(RequestHandler):
     """The viewer's page."""
 
-    def initialize(self, server: Server) -> None:
+    def initialize(self, server: Desk) -> None:
         """Remember the server."""
         self.viewer = server
 
@@ -64,7 +80,7 @@ class Page(RequestHandler):
 class Live(WebSocketHandler):
     """The page's connection; tornado itself refuses an Origin that is not the Host."""
 
-    def initialize(self, server: Server) -> None:
+    def initialize(self, server: Desk) -> None:
         """Remember the server."""
         self.viewer = server
 

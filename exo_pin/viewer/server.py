@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
 import ipaddress
 import json
 import math
@@ -20,7 +19,7 @@ from collections.abc import Coroutine
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from exo_pin.errors import ExoPinError
+from exo_pin.viewer.port import listen
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -28,9 +27,6 @@ if TYPE_CHECKING:
 
     from exo_pin.viewer.facts import Scene
     from exo_pin.viewer.handlers import Live
-
-TRIES = 100
-"""So many ports are tried, upwards from the one asked for."""
 
 BUNDLE, POSE = b"\0", b"\1"
 """First byte of a binary message to the page: a packed scene, or one pose."""
@@ -77,7 +73,7 @@ class Server:
         self._title = "exo_pin"
         self._state: dict[str, Any] | None = None
         self._clients: set[Live] = set()
-        self._socket = _listen(host, port)
+        self._socket = listen(host, port)
         self._address, self.port = self._socket.getsockname()[:2]
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._work, name="exo_pin viewer", daemon=True)
@@ -231,20 +227,3 @@ def _state(message: str | bytes) -> dict[str, Any] | None:
         return None
     flags = {name: said.get(name) is True for name in ("playing", "loop")}
     return {"time": time, "speed": speed, "view": view, **flags}
-
-
-def _listen(host: str, port: int) -> socket.socket:
-    """A listening socket at the wanted port, or the next free one."""
-    try:
-        family, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-    except (OSError, UnicodeError) as error:
-        raise ExoPinError(f"{host!r} is not an address of this machine: {error}") from error
-    refusal: OSError | None = None
-    for number in [port + k for k in range(TRIES if port else 1) if port + k < 65_536]:
-        try:
-            return socket.create_server((str(address[0]), number), family=family, backlog=128)
-        except OSError as error:
-            refusal = error
-            if error.errno == errno.EADDRNOTAVAIL:  # the next port will not help
-                break
-    raise ExoPinError(f"cannot listen on {host} from port {port} on: {refusal}; use another host or port")
