@@ -15,7 +15,7 @@ Array = npt.NDArray[np.float64]
 ORTHONORMAL = 1e-6
 """Largest `deviation` from a pose that passes as rounding; what passes is straightened."""
 _EXACT = 1e-13  # a rotation this good needs no straightening
-CHUNK = 4000
+CHUNK = 6000
 """Samples worked on at once: what stays in a core's cache."""
 
 

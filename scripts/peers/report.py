@@ -14,6 +14,7 @@ from exo_pin import ik
 from exo_pin.ik import chain, closed_form
 from exo_pin.ik.leg import leg
 from exo_pin.ik.solvers import closed_form_of
+from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
 from peers import PEERS, calibrated, jobs
 from peers import plots as drawn
@@ -148,8 +149,8 @@ def raw(robot, work, budget):
         q = np.empty((len(job.q), 12))
         for own, T in zip(legs, (job.left, job.right), strict=True):
             ideal = closed_form_of(own)
-            for a in range(0, len(q), 4000):
-                part = slice(a, a + 4000)
+            for a in range(0, len(q), CHUNK):
+                part = slice(a, a + CHUNK)
                 R, p = chain.components(T[part, :3, :3], T[part, :3, 3])
                 for column, angles in zip(own.columns, closed_form.angles(ideal, R, p), strict=True):
                     q[part, column] = angles
