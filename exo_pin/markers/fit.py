@@ -1,0 +1,149 @@
+"""The fit behind a reconstruction: markers to poses, and sizes and markers' places learnt from the poses."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin import ik
+from exo_pin.anatomy import SIDES
+from exo_pin.errors import GaitError
+from exo_pin.gait.doubts import RANGES
+from exo_pin.kinematics import poses
+from exo_pin.markers.scale import Placement, Sizes, body_of, placement, rigid_fit
+from exo_pin.markers.sets import MarkerSet
+from exo_pin.robot import Robot, load_robot
+
+Array = NDArray[np.float64]
+
+ROUNDS = 2
+"""Times that sizes and places are learnt from the poses and the poses solved again."""
+
+SAMPLES = 16
+"""Frames that are learnt from: evenly over the trial."""
+
+TRUST = 0.010
+"""How well a marker's mean place in the solved poses is known [m]; weighs it against the set's place."""
+
+STEP = 0.02
+"""Relative change of a length that is tried."""
+
+BENT = 0.2
+"""Knees at the start of the search [rad]: a straight leg hides which way it bends."""
+
+SETTINGS = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=40)
+"""Markers are never met exactly: no restarts, an end when nothing moves any more."""
+
+HUMAN = {f"{s}_{m}": (np.radians(a), np.radians(b)) for s in SIDES for m, (a, b) in RANGES.items()}
+"""Joint limits of the solution [rad]: a person's extremes, for the device's stops are no fact of a trial."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """What was learnt: the body's sizes and where the markers sit on it."""
+
+    sizes: Sizes
+    places: Placement
+
+
+def few(path: Array) -> Array:
+    """`(SAMPLES, 3)` of a path, evenly over the trial."""
+    return np.asarray(path[np.unique(np.linspace(0, len(path) - 1, SAMPLES).astype(int))])
+
+
+def human(chosen: MarkerSet, sizes: Sizes) -> Robot:
+    """A robot of these sizes that floats and has a person's joint ranges."""
+    body = body_of(sizes, chosen, mass=None, sex="male")  # masses do not move a marker
+    return load_robot(dataclasses.replace(body, limits=HUMAN), base="floating")
+
+
+def learnt(chosen: MarkerSet, sizes: Sizes, pelvis: Array, paths: dict[str, Array]) -> Model:
+    """Sizes and places that fit the markers best, starting from the set's."""
+    places, q = placement(chosen, sizes, pelvis, paths), None
+    for _ in range(ROUNDS):
+        for name in ("leg", "thigh"):
+            q, _, _ = solved(human(chosen, sizes), places, paths, q)
+            sizes = _better(chosen, sizes, places, paths, name, q)
+        nominal = placement(chosen, sizes, pelvis, paths)
+        places = _moved(human(chosen, sizes), nominal, places, paths, q)
+    return Model(sizes, places)
+
+
+def _better(
+    chosen: MarkerSet, sizes: Sizes, places: Placement, paths: dict[str, Array], name: str, q: Array | None
+) -> Sizes:
+    """The size at the vertex of the parabola through the errors at three sizes."""
+    factors = (1 - STEP, 1.0, 1 + STEP)
+    tried = [_scaled(sizes, name, factor) for factor in factors]
+    cost = [float(np.nanmean(solved(human(chosen, s), places, paths, q)[1] ** 2)) for s in tried]
+    bend = cost[0] - 2 * cost[1] + cost[2]
+    if bend <= 0:
+        return tried[int(np.argmin(cost))]
+    vertex = 1 + STEP * float(np.clip(0.5 * (cost[0] - cost[2]) / bend, -1.5, 1.5))
+    return _scaled(sizes, name, vertex)
+
+
+def _scaled(sizes: Sizes, name: str, factor: float) -> Sizes:
+    if name == "leg":
+        return sizes._replace(leg=(sizes.leg[0] * factor, sizes.leg[1] * factor))
+    return sizes._replace(thigh=sizes.thigh * factor)
+
+
+def _moved(
+    robot: Robot, nominal: Placement, places: Placement, paths: dict[str, Array], q: Array | None
+) -> Placement:
+    """Each marker's place: where it is in the solved poses, weighed against where the set has it."""
+    q, _, _ = solved(robot, places, paths, q)
+    links = list(places.names)
+    T = poses(robot, q, links)
+    local = {}
+    for i, link in enumerate(links):
+        seen = np.stack([paths[name] for name in places.names[link]], axis=1) - T[:, i, None, :3, 3]
+        mean = np.nanmean(np.einsum("nji,nkj->nki", T[:, i, :3, :3], seen), axis=0)
+        weight = nominal.spread[link] ** 2 / (nominal.spread[link] ** 2 + TRUST**2)
+        if link == "pelvis":
+            weight = np.zeros_like(weight)  # the pelvis's own triangle is the frame of everything else
+        local[link] = nominal.local[link] + weight[:, None] * (mean - nominal.local[link])
+    return places._replace(local=local)
+
+
+def solved(
+    robot: Robot, places: Placement, paths: Mapping[str, Array], q0: Array | None = None
+) -> tuple[Array, Array, tuple[str, ...]]:
+    """Configurations `(n, nq)`, errors `(n, k)` [m] and the k names; q0 is near the answer, if known."""
+    links = list(places.names)
+    points = {link: np.stack([paths[name] for name in places.names[link]], axis=1) for link in links}
+    targets = {link: ik.Points(places.local[link], points[link]) for link in links}
+    start = _start(robot, places, paths) if q0 is None else q0
+    track = ik.track(robot, targets, start, settings=SETTINGS)
+    T = poses(robot, track.q, links)
+    errors = []
+    for i, link in enumerate(links):
+        reached = T[:, i, None, :3, 3] + places.local[link] @ T[:, i, :3, :3].swapaxes(1, 2)
+        errors.append(np.linalg.norm(reached - points[link], axis=2))
+    return track.q, np.concatenate(errors, axis=1), tuple(n for link in links for n in places.names[link])
+
+
+def _start(robot: Robot, places: Placement, paths: Mapping[str, Array]) -> Array:
+    """Configurations `(n, nq)` with the pelvis on its markers and the knees a little bent."""
+    pelvis = dict(zip(places.names["pelvis"], places.local["pelvis"], strict=True))
+    T = rigid_fit(pelvis, paths)
+    good = np.flatnonzero(~np.isnan(T[:, 0, 0]))
+    if not len(good):
+        raise GaitError("the pelvis's markers are never seen together")
+    nearest = good[np.abs(good[:, None] - np.arange(len(T))).argmin(axis=0)]
+    q = np.tile(robot.neutral, (len(T), 1))
+    q[:, : robot.nq - len(robot.joints)] = _floating(T[nearest])
+    q[:, [robot.column(f"{side}_knee_flexion") for side in SIDES]] = BENT
+    return q
+
+
+def _floating(T: Array) -> Array:
+    """`(n, 7)` position and quaternion x, y, z, w of poses, as a floating base has them."""
+    import pinocchio as pin
+
+    return np.array([pin.SE3ToXYZQUAT(pin.SE3(pose)) for pose in T])

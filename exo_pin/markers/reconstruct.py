@@ -1,0 +1,191 @@
+"""From markers to a walk: scale a body, learn where the markers sit, solve every frame."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin import signals
+from exo_pin.anatomy import Body
+from exo_pin.errors import FormatError, GaitError
+from exo_pin.formats import Markers, load_markers
+from exo_pin.formats.markers import UPS, to_z_up
+from exo_pin.gait import Gait
+from exo_pin.markers.fit import few, human, learnt, solved
+from exo_pin.markers.scale import Placement, body_of, first_sizes
+from exo_pin.markers.sets import MarkerSet, marker_set
+from exo_pin.robot import Robot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Reconstruction:
+    """A walk made of markers.
+
+    Attributes:
+        gait: The walk, its base in the world with z up.
+        body: The body that was scaled to the markers.
+        marker_set: Name of the set.
+        names: The k markers that were used, by the set's names.
+        error: `(n, k)` distance of each marker from its place on the body [m]; NaN where it was not seen.
+        filled: Coordinates that were filled in short gaps.
+    """
+
+    gait: Gait
+    body: Body
+    marker_set: str
+    names: tuple[str, ...]
+    error: Array
+    filled: int
+
+    @property
+    def rms(self) -> Array:
+        """`(n,)` root mean square over the markers of each frame [m]."""
+        return np.asarray(np.sqrt(np.nanmean(self.error**2, axis=1)))
+
+    @property
+    def worst(self) -> Array:
+        """`(n,)` largest error of each frame [m]."""
+        return np.asarray(np.nanmax(self.error, axis=1))
+
+    @property
+    def total_rms(self) -> float:
+        """Over all markers and frames [m]."""
+        return float(np.sqrt(np.nanmean(self.error**2)))
+
+    def by_marker(self) -> dict[str, float]:
+        """Marker -> its root mean square error [m]."""
+        return dict(zip(self.names, np.sqrt(np.nanmean(self.error**2, axis=0)).tolist(), strict=True))
+
+
+def load_walk(
+    path: str | Path,
+    *,
+    static: str | Path | None = None,
+    markers: str | None = None,
+    mass: float | None = None,
+    sex: str = "male",
+) -> Reconstruction:
+    """Read a marker trial (.trc, .c3d) and make a walk of it; arguments as in `reconstruct`.
+
+    Raises:
+        FormatError: The file cannot be read, or its markers make no walk.
+    """
+    trial = load_markers(path)
+    standing = None if static is None else load_markers(static)
+    try:
+        return reconstruct(trial, static=standing, markers=markers, mass=mass, sex=sex)
+    except FormatError:
+        raise
+    except GaitError as error:
+        raise FormatError(path, str(error)) from error
+
+
+def reconstruct(
+    trial: Markers,
+    *,
+    static: Markers | None = None,
+    markers: str | None = None,
+    mass: float | None = None,
+    sex: str = "male",
+) -> Reconstruction:
+    """Joint angles and pelvis from markers by least squares, on a body scaled to them.
+
+    The pelvis, the feet's scale and the longest distance from hip to ankle give the body's first sizes; where
+    markers sit is the set's business, within its spread the data's. Sizes and places are learnt from the
+    static trial where there is one, else from the trial itself.
+
+    Args:
+        trial: The markers; z, y or x up.
+        static: A standing trial of the same person and the same markers.
+        markers: Name of the marker set; None: the one whose markers are there.
+        mass: Of the person [kg]; from the leg's length and a body-mass index of 22 if left out.
+        sex: Whose segment masses.
+
+    Raises:
+        GaitError: Markers are missing, or never seen; the message says which.
+        UnknownNameError: There is no such marker set.
+    """
+    chosen, paths, moved, filled = _paths(trial, markers)
+    teacher = paths if static is None else _paths(static, chosen.name)[1]
+    shared = {name: path for name, path in paths.items() if name in teacher}
+    sizes, pelvis = first_sizes(chosen, {name: teacher[name] for name in shared})
+    model = learnt(chosen, sizes, pelvis, {name: few(teacher[name]) for name in shared})
+    robot = human(chosen, model.sizes)
+    start, stop = _seen(model.places, paths)
+    used = {name: path[start:stop] for name, path in paths.items()}
+    q, error, names = solved(robot, model.places, used)
+    gait = _gait(robot, q, moved, (start, stop), chosen)
+    body = body_of(model.sizes, chosen, mass=mass, sex=sex)
+    return Reconstruction(gait, body, chosen.name, names, error, filled)
+
+
+def _paths(trial: Markers, name: str | None) -> tuple[MarkerSet, dict[str, Array], Markers, int]:
+    """The set, its markers' paths with z up and short gaps filled, the turned trial, how much was filled."""
+    trial = with_sacrum(trial)
+    chosen, own = marker_set(trial.names, name)
+    turned = trial.turned(to_z_up(trial.up or _vertical(trial, chosen, own)))
+    paths, filled = {}, 0
+    for marker, given in own.items():
+        done = signals.filled(turned.time, turned.of(given))
+        paths[marker], filled = done.values, filled + done.filled
+    never = [marker for marker, path in paths.items() if np.isnan(path).all()]
+    paths = {marker: path for marker, path in paths.items() if marker not in never}
+    marker_set(paths, chosen.name)
+    return chosen, paths, turned, filled
+
+
+def with_sacrum(trial: Markers) -> Markers:
+    """The middle of LPSI and RPSI serves as SACR, as Plug-in Gait has it."""
+    if "SACR" in trial.names or not {"LPSI", "RPSI"} <= set(trial.names):
+        return trial
+    middle = (trial.of("LPSI") + trial.of("RPSI")) / 2
+    position = np.concatenate([trial.position, middle[:, None]], axis=1)
+    return dataclasses.replace(trial, names=(*trial.names, "SACR"), position=position)
+
+
+def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> str:
+    """The axis along which the pelvis is furthest above the feet."""
+    links = chosen.spots()
+    groups: dict[bool, list[Array]] = {True: [], False: []}
+    for marker, given in own.items():
+        link = links[marker][0]
+        if link == "pelvis" or link.endswith("sole_plate"):
+            groups[link == "pelvis"].append(trial.of(given))
+    above = np.nanmean(groups[True], axis=(0, 1)) - np.nanmean(groups[False], axis=(0, 1))
+    k = int(np.abs(above).argmax())
+    rest = np.linalg.norm(np.delete(above, k))
+    if not abs(above[k]) > 2 * rest:
+        raise GaitError(
+            f"which axis is up is not clear: the pelvis is {above} m from the feet; one of {UPS}?"
+        )
+    return ("+" if above[k] > 0 else "-") + "xyz"[k]
+
+
+def _seen(places: Placement, paths: Mapping[str, Array]) -> tuple[int, int]:
+    """Start and stop of the longest run of frames in which every segment has its markers."""
+    good = np.ones(len(next(iter(paths.values()))), dtype=bool)
+    for link, names in places.names.items():
+        count = sum(~np.isnan(paths[name][:, 0]) for name in names)
+        good &= count >= (3 if link == "pelvis" else 2 if link.endswith("sole_plate") else 1)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int))).reshape(-1, 2)
+    if not len(edges) or np.diff(edges, axis=1).max() < 2:
+        raise GaitError("no two frames in a row show the markers of every segment")
+    start, stop = edges[np.diff(edges, axis=1)[:, 0].argmax()]
+    return int(start), int(stop)
+
+
+def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen: MarkerSet) -> Gait:
+    start, stop = span
+    time = trial.time[start:stop]
+    events = tuple(event for event in trial.events if time[0] <= event.time <= time[-1])
+    source = f"{trial.source}: markers ({chosen.name}) by least squares on a body scaled to them"
+    if stop - start < len(trial):
+        source += f", frames {start} to {stop - 1} of {len(trial)}"
+    return robot.to_gait(q, Gait(time, np.zeros((len(time), 12)), events=events, source=source))

@@ -1,0 +1,177 @@
+"""Marker sets: one entry in SETS each; where every marker sits, as a fraction of its segment."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from types import MappingProxyType
+from typing import NamedTuple
+
+from exo_pin.anatomy import SIDES
+from exo_pin.errors import GaitError, UnknownNameError
+
+SEGMENTS = ("pelvis", "thigh", "shank", "foot")
+
+LINKS = {"thigh": "thigh", "shank": "shank", "foot": "sole_plate"}
+"""Segment -> link of the robot, behind its side."""
+
+NEEDED = {"pelvis": 3, "thigh": 1, "shank": 1, "foot": 2}
+"""Fewest markers that determine a segment, given its neighbours."""
+
+
+class Spot(NamedTuple):
+    """Where one marker sits on the right side of the body (or in its middle).
+
+    Attributes:
+        segment: One of `SEGMENTS`.
+        place: Forward, left and up from the segment's origin: the point midway between the hip centres, the
+            hip, the knee, the ankle; in lengths of the segment (hip width, thigh, shank, heel to toe marker).
+        spread: How far laboratories put it from there [m]: what lies within is left to the data.
+    """
+
+    segment: str
+    place: tuple[float, float, float]
+    spread: float
+
+
+class MarkerSet(NamedTuple):
+    """A laboratory's markers.
+
+    Attributes:
+        name: What the user calls it.
+        middle: Markers in the middle of the body, by name.
+        paired: Markers of both sides: `{S}` in the name stands for L or R; the left one is the mirror image.
+        asis: Name of the front pelvis markers; their distance scales the pelvis where `hip_width` is given.
+        heel_toe: Names of the markers whose distance scales the foot.
+        foot_length: The foot's length in that distance.
+        hip_width: Distance of the hip centres in distances of the `asis` markers; None: by Davis 1991.
+        source: Where the places come from.
+    """
+
+    name: str
+    middle: dict[str, Spot]
+    paired: dict[str, Spot]
+    asis: str
+    heel_toe: tuple[str, str]
+    foot_length: float
+    hip_width: float | None
+    source: str
+
+    def spots(self) -> dict[str, tuple[str, Spot]]:
+        """Marker -> its link of the robot, and its spot with left ones mirrored."""
+        out = {name: ("pelvis", spot) for name, spot in self.middle.items()}
+        for side in SIDES:
+            for name, spot in self.paired.items():
+                link = f"{side}_{LINKS[spot.segment]}" if spot.segment in LINKS else spot.segment
+                x, y, z = spot.place
+                mirrored = spot._replace(place=(x, -y if side == "left" else y, z))
+                out[name.format(S=side[0].upper())] = (link, mirrored)
+        return out
+
+
+BONE, SKIN, WAND = 0.012, 0.03, 0.10
+
+_PIG = MarkerSet(
+    name="plug-in-gait",
+    middle={"SACR": Spot("pelvis", (-1.15, 0.0, 0.69), BONE)},
+    paired={
+        "{S}ASI": Spot("pelvis", (0.27, -0.93, 0.69), BONE),
+        "{S}THI": Spot("thigh", (0.0, -0.36, -0.79), WAND),
+        "{S}KNE": Spot("thigh", (0.0, -0.155, -1.0), BONE),
+        "{S}TIB": Spot("shank", (0.0, -0.30, -0.63), WAND),
+        "{S}ANK": Spot("shank", (0.0, -0.115, -1.0), BONE),
+        "{S}HEE": Spot("foot", (-0.34, -0.01, -0.25), BONE),
+        "{S}TOE": Spot("foot", (0.655, -0.02, -0.15), BONE),
+    },
+    asis="{S}ASI",
+    heel_toe=("{S}HEE", "{S}TOE"),
+    foot_length=1.30,
+    hip_width=None,
+    source="Plug-in Gait (Davis 1991); places: a static trial of biomechzoo (MIT), joint widths of adults",
+)
+
+_GAIT2354 = MarkerSet(
+    name="opensim-gait2354",
+    middle={"V.Sacral": Spot("pelvis", (-0.582, 0.0, 0.63), BONE)},
+    paired={
+        "{S}.ASIS": Spot("pelvis", (0.575, -0.766, 0.581), BONE),
+        "{S}.Thigh.Upper": Spot("thigh", (0.095, -0.198, -0.468), WAND),
+        "{S}.Thigh.Front": Spot("thigh", (0.243, -0.012, -0.581), WAND),
+        "{S}.Thigh.Rear": Spot("thigh", (0.072, -0.172, -0.719), WAND),
+        "{S}.Knee.Lat": Spot("thigh", (-0.001, -0.134, -0.955), BONE),
+        "{S}.Knee.Med": Spot("thigh", (-0.002, 0.126, -0.972), BONE),
+        "{S}.Shank.Upper": Spot("shank", (-0.023, -0.175, -0.155), WAND),
+        "{S}.Shank.Front": Spot("shank", (0.118, -0.045, -0.256), WAND),
+        "{S}.Shank.Rear": Spot("shank", (-0.024, -0.198, -0.306), WAND),
+        "{S}.Ankle.Lat": Spot("shank", (-0.002, -0.129, -1.011), BONE),
+        "{S}.Ankle.Med": Spot("shank", (0.013, 0.084, -0.966), BONE),
+        "{S}.Heel": Spot("foot", (-0.264, -0.008, -0.086), BONE),
+        "{S}.Midfoot.Sup": Spot("foot", (0.286, 0.099, -0.055), SKIN),
+        "{S}.Midfoot.Lat": Spot("foot", (0.245, -0.259, -0.090), SKIN),
+        "{S}.Toe.Lat": Spot("foot", (0.510, -0.292, -0.168), SKIN),
+        "{S}.Toe.Med": Spot("foot", (0.543, 0.073, -0.146), SKIN),
+        "{S}.Toe.Tip": Spot("foot", (0.735, -0.026, -0.141), BONE),
+    },
+    asis="{S}.ASIS",
+    heel_toe=("{S}.Heel", "{S}.Toe.Tip"),
+    foot_length=0.93,
+    hip_width=0.653,
+    source="OpenSim's gait2354 marker set (model credits CC BY 3.0), sides averaged; legs and pelvis only",
+)
+
+SETS = MappingProxyType({entry.name: entry for entry in (_PIG, _GAIT2354)})
+"""Name -> marker set."""
+
+
+def marker_set(names: Iterable[str], name: str | None = None) -> tuple[MarkerSet, dict[str, str]]:
+    """The set that a trial's markers belong to.
+
+    Args:
+        names: The trial's markers.
+        name: The set, if the user says it; else the one that most markers belong to.
+
+    Returns:
+        The set, and by the set's name of a marker the trial's own (which may differ in case and marks).
+
+    Raises:
+        GaitError: Too few markers to determine every segment; the message says which.
+        UnknownNameError: There is no such set.
+    """
+    if name is not None and name not in SETS:
+        raise UnknownNameError("marker set", name, SETS)
+    ours = {_plain(own): own for own in names}
+    found = {
+        entry.name: {spot: ours[_plain(spot)] for spot in entry.spots() if _plain(spot) in ours}
+        for entry in SETS.values()
+        if name in (None, entry.name)
+    }
+    best = max(found, key=lambda key: len(found[key]))
+    _check(SETS[best], found[best])
+    return SETS[best], found[best]
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^A-Z0-9]", "", name.upper())
+
+
+def _check(chosen: MarkerSet, found: dict[str, str]) -> None:
+    """Every segment has the markers that it needs."""
+    spots = chosen.spots()
+    links: dict[str, list[str]] = {}
+    for marker, (link, _) in spots.items():
+        links.setdefault(link, []).append(marker)
+    for link, markers in links.items():
+        seen = [marker for marker in markers if marker in found]
+        needed = NEEDED[spots[markers[0]][1].segment]
+        if len(seen) < needed:
+            gone = ", ".join(marker for marker in markers if marker not in found)
+            raise GaitError(
+                f"marker set {chosen.name}: {link} has {len(seen)} of the {needed} markers that it needs; "
+                f"missing: {gone} (known sets: {', '.join(SETS)})"
+            )
+    for marker in (chosen.asis, *chosen.heel_toe):
+        for side in "LR":
+            if marker.format(S=side) not in found:
+                raise GaitError(
+                    f"marker set {chosen.name}: {marker.format(S=side)} is missing; it gives the scale"
+                )

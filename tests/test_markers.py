@@ -1,0 +1,198 @@
+"""Markers to walks: known walks come back from their markers; recordings agree with their laboratories."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import FormatError, GaitError, UnknownNameError
+from exo_pin.formats import Markers, load_gait, load_markers
+from exo_pin.formats.markers import UPS, to_z_up
+from exo_pin.gait import normative_gait
+from exo_pin.kinematics import poses
+from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
+from exo_pin.markers.reconstruct import with_sacrum
+from exo_pin.markers.scale import THIGH, Sizes, body_of, placement
+from exo_pin.robot import load_robot
+
+SIZES = Sizes(0.17, (0.86, 0.85), THIGH, (0.29, 0.29), 0.08)
+FRAMES = 18
+ANGLE = 1.5  # [deg] rms: the size of the leg is learnt from its markers, and 1 mm is 5 deg at a straight knee
+SIZE = 0.01  # of a length
+OPENSIM_RMS = 0.0225  # [m] OpenSim's own on the same trial
+MODELS = {"hip_flexion": 2.8, "knee_flexion": 6.3, "ankle_dorsiflexion": 3.5}  # [deg] rms between two models
+RECORDING = "opensim_subject01_walk/subject01_walk1.trc"
+
+
+@pytest.fixture(scope="module")
+def made():
+    """A walk, and the paths of gait2354's markers on it, z up."""
+    chosen = SETS["opensim-gait2354"]
+    body = body_of(SIZES, chosen, mass=None, sex="male")
+    robot = load_robot(body)
+    walk = normative_gait("free", leg_length=body.leg_length, samples=FRAMES)
+    names = dict.fromkeys(chosen.spots())
+    pelvis = np.array([spot.place for link, spot in chosen.spots().values() if link == "pelvis"]) * 0.17
+    places = placement(chosen, SIZES, pelvis, names)
+    links = list(places.names)
+    T = poses(robot, robot.from_gait(walk), links, base=walk.base)
+    paths = {}
+    for i, link in enumerate(links):
+        p = T[:, i, None, :3, 3] + places.local[link] @ T[:, i, :3, :3].swapaxes(1, 2)
+        paths |= dict(zip(places.names[link], np.moveaxis(p, 1, 0), strict=True))
+    return walk, body, paths
+
+
+def trial(walk, paths, **more):
+    return Markers(walk.time, tuple(paths), np.stack(list(paths.values()), axis=1), **more)
+
+
+def rms_degrees(found, walk):
+    return np.degrees(np.sqrt(((found.gait.q - walk.q) ** 2).mean(axis=0)))
+
+
+def test_a_known_walk_comes_back_from_its_markers(made):
+    walk, body, paths = made
+    found = reconstruct(trial(walk, paths, up="+z", source="made up"))
+    assert found.total_rms < 0.003
+    assert rms_degrees(found, walk).max() < ANGLE
+    np.testing.assert_allclose(found.gait.base[:, :3, 3], walk.base[:, :3, 3], atol=0.01)
+    assert found.body.left_ankle_height == pytest.approx(
+        0.08, abs=0.02
+    )  # averaged walks leave the ground by 1 cm
+    for name in ("hip_width", "left_thigh", "right_shank"):
+        assert getattr(found.body, name) == pytest.approx(getattr(body, name), rel=3 * SIZE), name
+    assert found.error.shape == (FRAMES, len(found.names))
+    assert found.rms.shape == found.worst.shape == (FRAMES,)
+    assert (found.worst >= found.rms).all()
+    assert "opensim-gait2354" in found.gait.source
+
+
+def test_the_vertical_is_found_from_the_markers_themselves(made):
+    walk, _, paths = made
+    R = to_z_up("+y")  # a laboratory with y up, whose file does not say so
+    turned = {name: path @ R for name, path in paths.items()}
+    known = reconstruct(trial(walk, paths, up="+z"))
+    found = reconstruct(trial(walk, turned))
+    np.testing.assert_allclose(found.gait.q, known.gait.q, atol=1e-5)
+    assert set(UPS) > {"+y"}
+
+
+def test_gaps_are_bridged_and_long_ones_cut_the_walk(made):
+    walk, _, paths = made
+    holes = {name: path.copy() for name, path in paths.items()}
+    holes["R.Heel"][5:7] = np.nan  # 0.18 s from frame to frame
+    found = reconstruct(trial(walk, holes, up="+z"))
+    assert found.filled == 6
+    assert rms_degrees(found, walk).max() < ANGLE
+    for name in holes:
+        if name.startswith("L.") and "Shank" in name:
+            holes[name][:9] = np.nan
+        if name.startswith("L.Ankle"):
+            holes[name][:9] = np.nan
+    short = reconstruct(trial(walk, holes, up="+z"))
+    assert len(short.gait) == 9
+    assert f"frames 9 to 17 of {FRAMES}" in short.gait.source
+
+
+def test_missing_markers_are_named(made):
+    walk, _, paths = made
+    few = {name: path for name, path in paths.items() if "Thigh" not in name and "Knee" not in name}
+    with pytest.raises(GaitError, match=r"left_thigh has 0 of the 1 markers .*missing: L\.Thigh\.Upper"):
+        reconstruct(trial(walk, few, up="+z"))
+    with pytest.raises(GaitError, match="which axis is up is not clear"):
+        reconstruct(trial(walk, {name: path * 0 + 1 for name, path in paths.items()}))
+    apart = {name: path.copy() for name, path in paths.items()}
+    apart["L.ASIS"][::2], apart["R.ASIS"][1::2] = np.nan, np.nan
+    slow = dataclasses.replace(walk, time=walk.time * 100)  # too far apart in time to be filled
+    with pytest.raises(GaitError, match="never seen together"):
+        reconstruct(trial(slow, apart, up="+z"))
+    with pytest.raises(GaitError, match="nobody's"):
+        reconstruct(trial(walk, {name: 50 * path for name, path in paths.items()}, up="+z"))
+
+
+def test_names_may_differ_in_case_and_marks():
+    own = [name.replace(".", "_").lower() for name in SETS["opensim-gait2354"].spots()]
+    chosen, found = marker_set([*own, "sternum"])
+    assert chosen.name == "opensim-gait2354"
+    assert found["R.Toe.Tip"] == "r_toe_tip"
+    with pytest.raises(UnknownNameError, match="marker set"):
+        marker_set(own, "gait2392")
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_left_markers_are_the_mirror_image_and_outside(name):
+    spots = SETS[name].spots()
+    for marker, template in ((m, t) for t in SETS[name].paired for m in [t.format(S="R")]):
+        link, right = spots[marker]
+        other, left = spots[template.format(S="L")]
+        assert left.place == (right.place[0], -right.place[1], right.place[2])
+        assert other == link.replace("right", "left")
+    for lateral in ("KNE", "Knee.Lat", "ANK", "Ankle.Lat"):
+        for marker, (_, spot) in spots.items():
+            if marker.endswith(lateral):
+                assert (spot.place[1] < 0) == marker.startswith("R")
+
+
+def test_two_psis_markers_serve_as_the_sacrum():
+    position = np.arange(12.0).reshape(2, 2, 3)
+    trial = with_sacrum(Markers([0, 1], ("LPSI", "RPSI"), position))
+    np.testing.assert_array_equal(trial.of("SACR"), position.mean(axis=1))
+    assert with_sacrum(trial) is trial
+
+
+def thinned(whole, k):
+    """Every k-th frame of a trial."""
+    return dataclasses.replace(
+        whole,
+        time=whole.time[::k],
+        position=whole.position[::k],
+        angles={name: values[::k] for name, values in whole.angles.items()},
+    )
+
+
+def test_the_recording_is_met_better_than_by_opensim_and_its_angles_agree(shared):
+    found = reconstruct(thinned(load_markers(shared / RECORDING), 3))
+    published = load_gait(shared / RECORDING.replace(".trc", "_ik_full_opensim46.mot"))
+    published = dataclasses.replace(published, time=published.time[::3], q=published.q[::3], base=None)
+    assert found.total_rms <= OPENSIM_RMS
+    difference = rms_degrees(found, published)
+    for movement, tolerance in MODELS.items():
+        for side in ("left", "right"):
+            assert difference[JOINTS.index(f"{side}_{movement}")] <= tolerance, movement
+    assert found.body.hip_width == pytest.approx(0.171, abs=0.005)  # the scaled model's
+    assert found.body.left_thigh + found.body.left_shank == pytest.approx(0.879, abs=0.01)
+
+
+def test_a_plug_in_gait_trial_agrees_with_its_own_model(shared):
+    path = shared / "c3d_pig_walk_HC036A/HC036A10_walk.c3d"
+    found, model = reconstruct(thinned(load_markers(path), 5), mass=33.0), load_gait(path)
+    model = dataclasses.replace(model, time=model.time[::5], q=model.q[::5], base=None, events=())
+    assert found.marker_set == "plug-in-gait"
+    assert found.total_rms < 0.010
+    assert found.body.mass == 33
+    assert len(found.gait.events) == 9
+    difference = rms_degrees(found, model)
+    for movement, tolerance in (MODELS | {"ankle_dorsiflexion": 5.0}).items():  # the foot has two markers
+        for side in ("left", "right"):
+            assert difference[JOINTS.index(f"{side}_{movement}")] <= tolerance, movement
+
+
+def test_a_file_without_a_known_set_is_refused_in_one_line(tmp_path):
+    lines = ["PathFileType\t4\t(X/Y/Z)\tx.trc", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits"]
+    lines += [
+        "60\t60\t2\t1\tmm",
+        "Frame#\tTime\tball",
+        "\t\tX1\tY1\tZ1",
+        "1\t0\t1\t2\t3",
+        "2\t0.1\t1\t2\t3",
+        "",
+    ]
+    path = tmp_path / "x.trc"
+    path.write_text("\n".join(lines))
+    with pytest.raises(FormatError, match="known sets: plug-in-gait, opensim-gait2354") as caught:
+        load_walk(path)
+    assert "\n" not in str(caught.value)
