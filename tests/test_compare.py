@@ -10,13 +10,13 @@ from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, Body
 from exo_pin.anatomy.hip import hip_angles
 from exo_pin.cli import main
-from exo_pin.compare import PHASES, Conditions, best, compare, projected, table, walk
+from exo_pin.compare import PHASES, Conditions, best, compare, dressed, projected, table, walk
 from exo_pin.compare.motion import SETTINGS, corners, robot_for
-from exo_pin.gait.phases import masks, percent
 from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait.phases import masks, percent
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 
@@ -208,3 +208,27 @@ def test_the_command_prints_json_and_writes_tables(tmp_path, capsys):
 def test_the_command_refuses_what_it_does_not_know(words, capsys):
     assert main(["compare", *words]) == 2
     assert capsys.readouterr().err.startswith("exo-pin: ")
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_every_device_walks_in_the_viewer_in_its_own_looks(name):
+    from exo_pin import viewer
+
+    recorded = walk(GAIT)
+    motion = projected(recorded, robot_for(find(name), BODY, Conditions()))
+    robot = dressed(motion.robot)
+    feet = poses(robot, robot.from_gait(motion.gait), FEET, base=motion.gait.base)
+    assert feet == pytest.approx(motion.feet, abs=1e-12)
+    scene = viewer.scene(robot, motion.gait, reference=GAIT)
+    turns = {turn.name for chain in scene.facts.chains for turn in chain.joints}
+    assert turns & set(JOINTS) == set(find(name).joints)
+
+
+def test_replay_shows_a_device_and_tells_what_it_misses(tmp_path, capsys):
+    page = tmp_path / "w.html"
+    assert main(["replay", "--device", "hk4", "--html", str(page)]) == 0
+    said = capsys.readouterr().out
+    assert "powered orthosis" in said
+    assert "mm rms" in said
+    assert page.stat().st_size > 100_000
+    assert main(["replay", "--device", "hk4", "--hip-order", "yaw_roll_pitch", "--html", str(page)]) == 2

@@ -24,7 +24,6 @@ COMMANDS = {
     "urdf": "the exoskeleton's URDF for a body",
     "devices": "the exoskeletons and planar models to choose from",
     "compare": "what each device loses of a walk",
-    "compare": "what each device loses of a walk",
     "joints": "which joints of a leg are worth their motor",
     "feasible": "whether a device can do a walk with a person",
     "dh": "the Denavit-Hartenberg table for a body",

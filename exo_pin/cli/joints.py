@@ -51,13 +51,13 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-_FRONT = ("driven, each leg", "motors", "sole rms mm")
+_FRONT = ("motors", "sole rms mm", "driven, each leg")
 _SINGLE = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
 
 
 def _front(study: Worth) -> list[list[str]]:
     return [
-        [", ".join(chosen) or "none", str(motors), show.fixed(1e3 * loss)]
+        [str(motors), show.fixed(1e3 * loss), ", ".join(chosen) or "none"]
         for motors, chosen, loss in study.pareto
     ]
 

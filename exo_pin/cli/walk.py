@@ -31,6 +31,12 @@ def add(parser: argparse.ArgumentParser) -> None:
         default="carried",
         help="carried: the pelvis follows so that the standing foot stays on the belt (default); still: held",
     )
+    parser.add_argument(
+        "--device",
+        default="exo12",
+        metavar="DEVICE",
+        help="name or device file: another one walks as near to the feet as it can (see `exo-pin devices`)",
+    )
     options.add_body(parser)
     options.add_hip_order(parser)
 
@@ -49,19 +55,22 @@ def read(args: argparse.Namespace) -> tuple[Body, Gait]:
 
 def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     """Solve, print the residuals, and compile the scene."""
-    from exo_pin import crosscheck, viewer
+    from exo_pin import viewer
     from exo_pin.robot import load_robot
 
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
-    recovery = crosscheck.recover(robot, gait)
     name = Path(args.gait).name
-    _print(robot, recovery, name)
     notes = [line for line in (gait.source, note) if line]
+    if args.device == "exo12":
+        shown = _recovered(robot, gait, name)
+    else:
+        robot, shown, said = _on_device(args, body, gait)
+        notes.append(said)
     second = None if args.compare is None else options.load(args.compare, body, preset=args.preset)
     return viewer.scene(
         robot,
-        recovery.gait,
+        shown,
         reference=gait,
         compare=second,
         compare_title=Path(args.compare or "").name,
@@ -70,6 +79,33 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         notes=notes,
         speed=args.speed,
     )
+
+
+def _recovered(robot: Robot, gait: Gait, name: str) -> Gait:
+    """The walk that inverse kinematics makes of the gait's feet."""
+    from exo_pin import crosscheck
+
+    recovery = crosscheck.recover(robot, gait)
+    _print(robot, recovery, name)
+    return recovery.gait
+
+
+def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot, Gait, str]:
+    """The device's best motion towards the gait's feet, on a robot of its looks, and what it misses."""
+    from exo_pin import devices
+    from exo_pin.compare import compare, dressed
+
+    if args.hip_order != "clinical":
+        raise DescriptionError("--hip-order is for exo12; other devices are shown with clinical hips")
+    device = devices.find(args.device)
+    loss = compare(gait, [device], body).best[0]
+    rms, most = 1e3 * loss.rms, 1e3 * float(loss.sole_error.max())
+    said = (
+        f"{device.title or device.name} ({device.motors} motors), the pelvis moving as recorded: the soles "
+        f"miss the recorded ones by {rms:.1f} mm rms, {most:.1f} mm at most."
+    )
+    print(said)
+    return dressed(loss.motion.robot), loss.motion.gait, said
 
 
 def _print(robot: Robot, recovery: Recovery, name: str) -> None:

@@ -3,7 +3,17 @@
 from exo_pin.compare.comparison import Comparison, compare
 from exo_pin.compare.joints import Worth, worth
 from exo_pin.compare.loss import Loss
-from exo_pin.compare.motion import CONDITIONS, Conditions, Motion, Walk, best, projected, walk
+from exo_pin.compare.motion import (
+    CONDITIONS,
+    Conditions,
+    Motion,
+    Walk,
+    best,
+    dressed,
+    projected,
+    robot_for,
+    walk,
+)
 from exo_pin.gait.phases import PHASES
 
 __all__ = [
@@ -17,7 +27,9 @@ __all__ = [
     "Worth",
     "best",
     "compare",
+    "dressed",
     "projected",
+    "robot_for",
     "walk",
     "worth",
 ]

@@ -207,3 +207,11 @@ def _motion(recorded: Walk, robot: Robot, q: Array, base: Array, asked: Array) -
     )
     com = center_of_mass(robot, q, base=base).position
     return Motion(robot, q, robot.to_gait(q, like), feet, corners(robot, feet), com, asked)
+
+
+def dressed(robot: Robot) -> Robot:
+    """The full 12-joint model with a device's looks: for the viewer, which plots all twelve joints.
+
+    A gait with the locked joints at zero puts both in the same pose.
+    """
+    return dataclasses.replace(load_robot(robot.body), urdf=robot.urdf)
