@@ -1,0 +1,79 @@
+"""What a walk asks of the joints after an adjustment: ranges, velocities, accelerations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+
+ROUNDING = 1e-9
+"""Excess that is rounding [rad, rad/s]."""
+
+JOLT = 200.0
+"""Joint acceleration that no usual walk reaches [rad/s^2]: the fastest of Schwartz 2008 stays below 150."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recheck:
+    """The joints that leave what is allowed, each with its worst value; empty where all is well.
+
+    Attributes:
+        angle: Joint -> furthest angle beyond its limits [rad].
+        velocity: Joint -> largest speed beyond the robot's [rad/s].
+        acceleration: Joint -> largest acceleration beyond `JOLT` [rad/s^2].
+    """
+
+    angle: dict[str, float]
+    velocity: dict[str, float]
+    acceleration: dict[str, float]
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing is beyond."""
+        return not (self.angle or self.velocity or self.acceleration)
+
+    def lines(self) -> list[str]:
+        """One sentence per joint and kind, in degrees."""
+        kinds = (
+            ("angle", "deg", "its limits"),
+            ("velocity", "deg/s", "its motor's speed"),
+            ("acceleration", "deg/s^2", "any usual walk"),
+        )
+        return [
+            f"{joint}: {kind} {np.degrees(value):.4g} {unit} is beyond {what}"
+            for kind, unit, what in kinds
+            for joint, value in getattr(self, kind).items()
+        ]
+
+
+def recheck(robot: Robot, gait: Gait) -> Recheck:
+    """Check a gait against the robot's limits and velocities, and against jolts.
+
+    Angles are in the robot's own hip order; rates are the clinical angles', by the gait's own derivatives.
+    """
+    angles = robot.angles(robot.from_gait(gait))
+    over = np.where(
+        angles > robot.upper + ROUNDING, angles, np.where(angles < robot.lower - ROUNDING, angles, 0)
+    )
+    excess = np.maximum(angles - robot.upper, robot.lower - angles)
+    return Recheck(
+        {
+            joint: float(angles[excess[:, k].argmax(), k])
+            for k, joint in enumerate(robot.joints)
+            if over[:, k].any() and excess[:, k].max() > ROUNDING
+        },
+        _fast(robot, gait.dq, robot.velocity + ROUNDING),
+        _fast(robot, gait.ddq, np.full(len(robot.joints), JOLT)),
+    )
+
+
+def _fast(robot: Robot, rates: npt.NDArray[np.float64], limit: npt.NDArray[np.float64]) -> dict[str, float]:
+    peaks = np.abs(rates).max(axis=0)
+    limits = dict(zip(robot.joints, limit.tolist(), strict=True))
+    found = zip(JOINTS, peaks.tolist(), strict=True)
+    return {joint: peak for joint, peak in found if joint in limits and peak > limits[joint]}

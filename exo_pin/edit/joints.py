@@ -1,0 +1,209 @@
+"""Adjustments of joint curves and time: every function gives a new gait that says what was done to it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin import signals
+from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.gait import Event, Gait
+from exo_pin.gait.rigid import nearest_pose
+
+Array = NDArray[np.float64]
+
+STEP = 0.01
+"""Samples of a ramp are this close [s], or as close as the walk's own."""
+
+
+def retimed(gait: Gait, *, duration: float | None = None, factor: float | None = None) -> Gait:
+    """The same motion in another time: its whole length, or the factor by which it takes longer.
+
+    Raises:
+        GaitError: Neither or both are given, or it is not positive.
+    """
+    if (duration is None) == (factor is None):
+        raise GaitError("retimed needs either a duration [s] or a factor")
+    ratio = factor if factor is not None else (duration or 0.0) / gait.duration
+    return _told(gait.slowed(ratio), f"retimed x{ratio:.4g}")
+
+
+def scaled(gait: Gait, factors: Mapping[str, float]) -> Gait:
+    """Joint amplitudes times factors, about each joint's own mean over the walk.
+
+    Args:
+        gait: The walk.
+        factors: Joint, or movement for both sides (`knee_flexion`) -> factor; 1 changes nothing.
+
+    Raises:
+        UnknownNameError: There is no such joint.
+        GaitError: A factor is negative or not finite.
+    """
+    q = gait.q.copy()
+    for name, factor in factors.items():
+        if not (np.isfinite(factor) and factor >= 0):
+            raise GaitError(f"amplitude of {name} times {factor}: expected a factor of at least 0")
+        columns = [k for k, joint in enumerate(JOINTS) if name in (joint, joint.partition("_")[2])]
+        if not columns:
+            raise UnknownNameError("joint", name, (*JOINTS, *MOVEMENTS))
+        mean = q[:, columns].mean(axis=0)
+        q[:, columns] = mean + factor * (q[:, columns] - mean)
+    words = ", ".join(f"{name} x{factor:g}" for name, factor in factors.items())
+    return _told(dataclasses.replace(gait, q=q), f"amplitude {words}")
+
+
+def mirrored(gait: Gait) -> Gait:
+    """Left and right change places."""
+    return _told(gait.mirrored(), "mirrored")
+
+
+def symmetrised(gait: Gait) -> Gait:
+    """Both sides the same, half a cycle apart: the mean of the walk and its mirror image half a cycle later.
+
+    Raises:
+        GaitError: The gait is not periodic (cut it into cycles and take their mean first).
+    """
+    if not gait.periodic:
+        raise GaitError("only a periodic gait can be symmetrised: its cycles' mean is one (exo-pin cycles)")
+    even = gait if len(gait) % 2 == 0 else gait.resampled(len(gait) + 1)
+    half = len(even) // 2
+    other = even.mirrored()
+    base = None
+    if even.base is not None:
+        shifted = np.roll(_or_raise(other.base), half, axis=0)
+        base = nearest_pose((even.base + shifted) / 2)
+    q = (even.q + np.roll(other.q, half, axis=0)) / 2
+    return _told(dataclasses.replace(even, q=q, base=base, events=_even_events(even)), "symmetrised")
+
+
+def blended(first: Gait, second: Gait, *, share: float = 0.5) -> Gait:
+    """A walk between two periodic ones: every angle, the pelvis and the period mixed at equal phase.
+
+    Args:
+        first: The walk at share 0.
+        second: The walk at share 1.
+        share: Between 0 and 1. To go over from one to the other, let it grow from cycle to cycle.
+
+    Raises:
+        GaitError: One of them is not periodic, or the share is not between 0 and 1.
+    """
+    if not (first.periodic and second.periodic):
+        raise GaitError("only periodic gaits can be blended: equal phase must mean something")
+    if not 0 <= share <= 1:
+        raise GaitError(f"share is {share}: expected 0 (the first walk) to 1 (the second)")
+    n = max(len(first), len(second))
+    a, b = first.resampled(n), second.resampled(n)
+    T = (1 - share) * a.duration + share * b.duration
+    base = None
+    if a.base is not None and b.base is not None:
+        base = nearest_pose((1 - share) * a.base + share * b.base)
+    near = a if share < 0.5 else b
+    events = tuple(dataclasses.replace(e, time=e.time / near.duration * T) for e in near.events)
+    mixed = Gait(
+        T * np.arange(n) / n, (1 - share) * a.q + share * b.q, base=base, events=events, periodic=True
+    )
+    return dataclasses.replace(mixed, source=f"{first.source} and {second.source}, blended {share:g}")
+
+
+def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
+    """A slow start and a slow stop: time runs up from standing still and down again, without a jolt.
+
+    The path of the angles stays the walk's own; only how quickly it is run through changes. A periodic gait
+    is walked once around and on as far as the ramps need.
+
+    Args:
+        gait: The walk.
+        start: Length of the run-up [s].
+        stop: Length of the run-down [s].
+
+    Raises:
+        GaitError: A ramp is negative, or the recording is shorter than half of both ramps.
+    """
+    if not (start >= 0 and stop >= 0 and np.isfinite(start + stop)):
+        raise GaitError(f"ramps of {start} s and {stop} s: expected 0 or more")
+    need = (start + stop) / 2  # a ramp covers half its time of the walk
+    walk = gait
+    if gait.periodic:
+        walk = gait.repeated(2 + int(np.ceil(need / gait.duration)))
+    span = float(walk.time[-1] - walk.time[0])
+    if span < need:
+        raise GaitError(
+            f"the recording lasts {span:.3g} s; ramps of {start:g} s and {stop:g} s need {need:g} s"
+        )
+    total = span + need
+    n = max(2, round(total / min(STEP, span / (len(walk) - 1))) + 1)
+    time = np.linspace(0, total, n)
+    phase = walk.time[0] + np.clip(_run(time, start, total - stop, total), 0, span)
+    return _told(_along(walk, time, phase), f"ramped {start:g} s up, {stop:g} s down")
+
+
+def filtered(gait: Gait, *, cutoff: float = signals.CUTOFF, order: int = signals.ORDER) -> Gait:
+    """Angles and pelvis through a zero-lag Butterworth filter; order and cut-off are kept in the source.
+
+    Raises:
+        GaitError: Uneven or too few samples, or a cut-off beyond half the sampling rate.
+    """
+    walk = gait.repeated(3) if gait.periodic else gait
+    n = len(gait)
+    rows = slice(n, 2 * n) if gait.periodic else slice(None)
+    q = signals.lowpass(walk.time, walk.q, cutoff=cutoff, order=order)[rows]
+    base = None
+    if walk.base is not None:
+        base = nearest_pose(signals.lowpass(walk.time, walk.base, cutoff=cutoff, order=order)[rows])
+    words = f"zero-lag Butterworth, order {order} (forward and backward together), cut-off {cutoff:g} Hz"
+    return _told(dataclasses.replace(gait, q=q, base=base), words)
+
+
+def _run(t: Array, up: float, down: float, end: float) -> Array:
+    """How much of the walk has passed at time t: its rate grows from 0 to 1 and falls again, smoothly."""
+    rise = t / 2 if up == 0 else _integral(t / up) * up
+    passed = np.where(t < up, rise, up / 2 + (t - up))
+    if end > down:
+        rest = (end - t) / (end - down)
+        full = up / 2 + (end - up) - (end - down) / 2
+        passed = np.where(t > down, full - _integral(np.clip(rest, 0, 1)) * (end - down), passed)
+    return np.asarray(passed)
+
+
+def _integral(s: Array) -> Array:
+    """Integral of the smooth step 3 s^2 - 2 s^3 from 0 to s; at 1 it is a half."""
+    return np.asarray(s**3 - s**4 / 2)
+
+
+def _along(walk: Gait, time: Array, phase: Array) -> Gait:
+    """The walk run through as `phase` says, with its events where they fall."""
+    from scipy.interpolate import CubicSpline  # 0.3 s, needed here only
+
+    q = CubicSpline(walk.time, walk.q)(phase)
+    base = None
+    if walk.base is not None:
+        base = nearest_pose(CubicSpline(walk.time, walk.base)(phase))
+    inside = [event for event in walk.events if phase[0] <= event.time <= phase[-1]]
+    grown = np.maximum.accumulate(
+        phase + 1e-12 * np.arange(len(phase))
+    )  # strictly, so it can be turned around
+    events = [dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside]
+    return Gait(time, q, base=base, events=events, source=walk.source)
+
+
+def _even_events(gait: Gait) -> tuple[Event, ...]:
+    """Events of a symmetric walk: the left foot's, and the right foot's half a period later."""
+    T = gait.duration
+    left = [event for event in gait.events if event.side == "left"]
+    right = [dataclasses.replace(e, side="right", time=(e.time + T / 2) % T) for e in left]
+    return (*left, *right)
+
+
+def _or_raise(base: Array | None) -> Array:
+    if base is None:
+        raise GaitError("the gait has no base")
+    return base
+
+
+def _told(gait: Gait, what: str) -> Gait:
+    """The gait, its source saying what was done."""
+    return dataclasses.replace(gait, source=f"{gait.source}; {what}" if gait.source else what)

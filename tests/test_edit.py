@@ -1,0 +1,192 @@
+"""Adjustments do what they say, say what they did, and are checked against the joints."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exo_pin import edit
+from exo_pin.anatomy import CORNERS, FEET, JOINTS
+from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.kinematics import poses, spatiotemporal
+from exo_pin.robot import load_robot
+
+EXACT = 1e-9
+FEET_MET = 1e-8  # [m] inverse kinematics' tolerance is 1e-9
+LENGTH = 0.05  # of the factor: the stride is measured between heels, the path scaled at the ankle
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return load_robot()
+
+
+@pytest.fixture(scope="module")
+def walk():
+    return normative_gait("free")
+
+
+def recording(walk, k=3):
+    long = walk.repeated(k)
+    return Gait(long.time, long.q, base=long.base, events=long.events, source="made up")
+
+
+def stride(robot, gait):
+    return spatiotemporal(robot, gait)["stride_length"].mean
+
+
+def test_retimed_changes_time_only(walk):
+    slow = edit.retimed(walk, duration=3.0)
+    assert slow.duration == pytest.approx(3)
+    np.testing.assert_array_equal(slow.q, walk.q)
+    assert edit.retimed(walk, factor=0.5).duration == pytest.approx(walk.duration / 2)
+    assert "retimed" in slow.source
+    for wrong in ({}, {"duration": 1.0, "factor": 1.0}, {"factor": -1.0}, {"duration": 0.0}):
+        with pytest.raises(GaitError):
+            edit.retimed(walk, **wrong)
+
+
+def test_amplitudes_are_scaled_about_the_mean_on_one_or_both_sides(walk):
+    changed = edit.scaled(walk, {"knee_flexion": 0.5, "left_hip_flexion": 1.2})
+    for joint, factor in (
+        ("left_knee_flexion", 0.5),
+        ("right_knee_flexion", 0.5),
+        ("left_hip_flexion", 1.2),
+        ("right_hip_flexion", 1.0),
+    ):
+        k = JOINTS.index(joint)
+        assert np.ptp(changed.q[:, k]) == pytest.approx(factor * np.ptp(walk.q[:, k]))
+        assert changed.q[:, k].mean() == pytest.approx(walk.q[:, k].mean())
+    with pytest.raises(UnknownNameError, match="did you mean 'knee_flexion'"):
+        edit.scaled(walk, {"knee_flexoin": 1.0})
+    with pytest.raises(GaitError, match="at least 0"):
+        edit.scaled(walk, {"knee_flexion": -1.0})
+
+
+def test_mirrored_twice_is_the_walk(walk):
+    twice = edit.mirrored(edit.mirrored(walk))
+    np.testing.assert_array_equal(twice.q, walk.q)
+    np.testing.assert_allclose(twice.base, walk.base, atol=EXACT)
+
+
+def test_a_symmetrised_walk_is_its_own_mirror_image_half_a_cycle_later(walk):
+    lame = edit.scaled(walk, {"left_knee_flexion": 0.6, "left_hip_flexion": 0.8})
+    even = edit.symmetrised(lame)
+    half = len(even) // 2
+    np.testing.assert_allclose(even.q, np.roll(even.mirrored().q, half, axis=0), atol=EXACT)
+    np.testing.assert_allclose(even.base, np.roll(even.mirrored().base, half, axis=0), atol=EXACT)
+    assert np.ptp(even.q[:, 3]) == pytest.approx(np.ptp(even.q[:, 9]))
+    assert {e.side for e in even.events} == {"left", "right"}
+    odd = edit.symmetrised(walk.resampled(51))
+    assert len(odd) == 52
+    with pytest.raises(GaitError, match="only a periodic gait"):
+        edit.symmetrised(recording(walk))
+
+
+def test_a_blend_goes_from_one_walk_to_the_other(walk):
+    slow = normative_gait("slow")
+    np.testing.assert_allclose(edit.blended(walk, slow, share=0.0).q, walk.q, atol=EXACT)
+    np.testing.assert_allclose(edit.blended(walk, slow, share=1.0).q, slow.q, atol=EXACT)
+    middle = edit.blended(walk, slow, share=0.5)
+    assert middle.duration == pytest.approx((walk.duration + slow.duration) / 2)
+    np.testing.assert_allclose(middle.q, (walk.q + slow.q) / 2, atol=EXACT)
+    with pytest.raises(GaitError, match="share"):
+        edit.blended(walk, slow, share=1.5)
+    with pytest.raises(GaitError, match="only periodic"):
+        edit.blended(walk, recording(slow))
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_a_ramp_starts_and_stops_at_rest_and_keeps_the_path(robot, walk, periodic):
+    gait = walk if periodic else recording(walk)
+    soft = edit.ramped(gait, start=1.0, stop=1.5)
+    peak = np.abs(gait.dq).max()
+    assert np.abs(soft.dq[[0, -1]]).max() < 0.01 * peak
+    assert np.abs(soft.dq).max() < 1.02 * peak
+    np.testing.assert_allclose(soft.q[0], gait.q[0], atol=EXACT)
+    if not periodic:
+        assert soft.duration == pytest.approx(gait.time[-1] + 1.25)
+        np.testing.assert_allclose(soft.q[-1], gait.q[-1], atol=EXACT)
+    assert edit.recheck(robot, soft).ok
+    assert [e.kind for e in soft.events][:3] == [e.kind for e in gait.events][:3]
+
+
+def test_a_recording_shorter_than_its_ramps_is_refused(walk):
+    short = Gait(walk.time[:20], walk.q[:20])
+    with pytest.raises(GaitError, match="ramps of 2 s and 2 s need 2 s"):
+        edit.ramped(short)
+    with pytest.raises(GaitError, match="expected 0 or more"):
+        edit.ramped(short, start=-1)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_filtering_takes_the_noise_and_leaves_the_walk(walk, rng, periodic):
+    gait = walk if periodic else recording(walk)
+    noisy = dataclasses.replace(gait, q=gait.q + np.radians(1) * rng.normal(size=gait.q.shape))
+    smooth = edit.filtered(noisy)
+    inner = slice(15, -15)
+    before, after = (np.abs(x.q - gait.q)[inner].mean() for x in (noisy, smooth))
+    assert after < 0.6 * before
+    assert "zero-lag Butterworth, order 4" in smooth.source
+    assert "cut-off 6 Hz" in smooth.source
+    assert smooth.base.shape == gait.base.shape
+
+
+@pytest.mark.parametrize("factor", [0.6, 0.8, 1.0, 1.1])
+def test_a_stride_is_scaled_at_the_feet(robot, walk, factor):
+    changed, track = edit.strided(robot, walk, stride=factor)
+    assert stride(robot, changed) / stride(robot, walk) == pytest.approx(factor, abs=LENGTH)
+    assert track.position_error.max() < 1e-3
+    if factor <= 0.8:
+        np.testing.assert_array_equal(changed.base, walk.base)
+    feet, old = (poses(robot, robot.from_gait(g), FEET, base=g.base) for g in (changed, walk))
+    np.testing.assert_allclose(
+        feet[..., :3, :3], old[..., :3, :3], atol=1e-2
+    )  # the sole stays as flat as it was
+    np.testing.assert_allclose(feet[..., 2, 3], old[..., 2, 3], atol=1e-3)
+    assert f"stride x{factor:g}" in changed.source
+
+
+def test_a_walk_over_ground_gets_along_in_proportion(robot, walk):
+    gait = recording(walk)
+    base = gait.base.copy()
+    base[:, 0, 3] += 1.2 * gait.time
+    over = dataclasses.replace(gait, base=base)
+    changed, _ = edit.strided(robot, over, stride=0.75)
+    assert np.ptp(changed.base[:, 0, 3]) == pytest.approx(0.75 * np.ptp(over.base[:, 0, 3]), rel=0.02)
+    assert stride(robot, changed) / stride(robot, over) == pytest.approx(0.75, abs=LENGTH)
+
+
+def test_clearance_is_scaled_in_swing_while_standing_feet_stay(robot, walk):
+    changed, track = edit.strided(robot, walk, clearance=1.3)
+    low, high = (
+        poses(robot, robot.from_gait(g), CORNERS, base=g.base)[..., 2, 3].reshape(-1, 2, 4).min(axis=2)
+        for g in (walk, changed)
+    )
+    ground = np.percentile(low, 5, axis=0)
+    assert track.position_error.max() < FEET_MET
+    np.testing.assert_allclose((high - ground).max(axis=0), 1.3 * (low - ground).max(axis=0), rtol=0.02)
+    stance = np.column_stack([walk.stance(side) for side in ("left", "right")])
+    assert np.abs(high - low)[stance & (low < ground + 0.01)].max() < 0.002
+
+
+def test_what_the_legs_cannot_do_is_refused_with_how_far_they_miss(robot, walk):
+    with pytest.raises(ConvergenceError, match=r"cannot follow in .* frames; .* misses by .* mm"):
+        edit.strided(robot, walk, stride=2.5)
+    with pytest.raises(GaitError, match="0 to 3 is accepted"):
+        edit.strided(robot, walk, clearance=9)
+    with pytest.raises(GaitError, match="fixed base"):
+        edit.strided(load_robot(base="floating"), walk)
+
+
+def test_the_recheck_names_joints_kinds_and_amounts(robot, walk):
+    assert edit.recheck(robot, walk).ok
+    wild = edit.recheck(robot, edit.scaled(edit.retimed(walk, factor=0.2), {"left_knee_flexion": 3}))
+    assert not wild.ok
+    assert set(wild.angle) == {"left_knee_flexion"}
+    assert "left_knee_flexion" in wild.velocity
+    assert "left_knee_flexion" in wild.acceleration
+    assert any(line.startswith("left_knee_flexion: velocity") for line in wild.lines())
