@@ -143,6 +143,15 @@ def test_a_target_that_leaves_the_reach_is_followed_without_a_jump(robot, settin
     assert (track.position_error[out, 0] <= -track.reach_slack[out, 0] + 1e-9).all()
 
 
+def test_an_ankle_in_the_hip_is_flagged_and_answered_with_numbers(robot, settings):
+    T = poses(robot, robot.q())[None, 0].repeat(20, axis=0)
+    T[:, :3, 3] = robot.placement[:3, 3] + [0.0, robot.body.hip_width / 2, -robot.body.left_ankle_height]
+    track = ik.track(robot, {"left_foot": T}, settings=settings)
+    assert not track.converged.any()
+    assert np.isfinite(track.q).all()
+    robot.check_limits(track.q, tolerance=0.0)
+
+
 def test_solve_raises_with_the_best_try(robot, settings):
     targets = {foot: T[0] for foot, T in feet(robot, robot.q()[None]).items()}
     targets["left_foot"] = targets["left_foot"] @ np.diag([1.0, 1.0, 1.0, 1.0])

@@ -27,14 +27,18 @@ ROUNDING, ROUGH = 1e-13, 1e-6
 def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
     """Write the closed form's answers for the leg of target f, within limits, and their true errors."""
     goal = task.goals[f]
-    assert goal.R is not None  # a leg is asked for full poses only (`legs.standing`)
+    assert goal.R is not None  # a leg is asked for full poses only (`solvers._limbs`)
     low, high = leg.lower[:, None], leg.upper[:, None]
     for a in range(0, task.n, CHUNK):
         part = slice(a, a + CHUNK)
         R, p = chain.components(goal.R[part], goal.p[part, 0])
         q = one_by_one(goal, leg, ideal) if task.n <= FEW else closed_form.angles(ideal, R, p)
         np.minimum(np.maximum(q, low, out=q), high, out=q)
-        sheet.errors[0, part, f], sheet.errors[1, part, f] = chain.errors(chain.forward(leg, q), R, p)
+        distance, angle = chain.errors(chain.forward(leg, q), R, p)
+        if np.isnan(distance).any():  # the ankle in the hip: no direction to take angles from
+            q = np.where(np.isnan(q), 0.5 * (low + high), q)
+            distance, angle = chain.errors(chain.forward(leg, q), R, p)
+        sheet.errors[0, part, f], sheet.errors[1, part, f] = distance, angle
         sheet.slack[part, f] = slack(leg, R, p)
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]

@@ -45,7 +45,8 @@ class Auto:
 
     Attributes:
         tolerance: A frame has converged when every position error [m] and rotation error [rad] is below it.
-        dls: For what the closed form cannot answer; its tolerance is replaced by this one.
+        dls: For what the closed form cannot answer; its tolerance is replaced by this one, and its damping
+            has no effect on legs: there no sample waits for the one before.
     """
 
     tolerance: float = 1e-9
