@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import gait as gait
     from exo_pin import ik as ik
     from exo_pin import kinematics as kinematics
+    from exo_pin import retarget as retarget
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
     from exo_pin.anatomy import JOINTS as JOINTS
@@ -43,7 +44,8 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
 __version__ = "0.1.0"
 
 _HOMES = {
-    "exo_pin": "anatomy compare crosscheck description devices dh feasible formats gait ik kinematics viewer",
+    "exo_pin": "anatomy compare crosscheck description devices dh feasible formats gait ik kinematics "
+    "retarget viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",
