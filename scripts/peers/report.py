@@ -6,6 +6,7 @@ import importlib.util
 import subprocess
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from peers import plots as drawn
 from peers.tables import goals, head, reference, table, version
 
 SEED = 20260101
+IN_THE_RACE = 100.0  # [us] slower solvers are not asked again
 
 
 class Row:
@@ -53,6 +55,8 @@ def run(*, short, placo, plots=None):
         rows.append(placo_row(robot, work, budget, placo))
     say("exo_pin ...")
     rows += ours(robot, work, budget)
+    say("one frame per call, in turns ...")
+    in_turns(rows)
     parts = [head(short, missing), table(rows), goals(rows)]
     say("calibrated legs ...")
     parts.append(
@@ -93,6 +97,7 @@ def peer(robot, kind, work, budget):
             rate = 1 / np.median(times)
             if name == "gait":
                 row.cells["online"] = online_cell(times)
+                row.again = partial(jobs.loop, solver.single, job, job.q[0], budget / 8)
         row.cells[name] = (rate, *jobs.verdict(robot, job, q))
     return row
 
@@ -100,22 +105,27 @@ def peer(robot, kind, work, budget):
 def placo_row(robot, work, budget, python):
     row = Row("PlaCo " + shell(python, "import importlib.metadata as m; print(m.version('placo'))"))
     for name, job in work.items():
-        with tempfile.TemporaryDirectory() as folder:
-            question, answer = Path(folder) / "job.npz", Path(folder) / "answer.npz"
-            np.savez(
-                question, urdf=robot.urdf, joints=robot.joints, placement=robot.placement,
-                lower=robot.lower, upper=robot.upper, left=job.left, right=job.right, cold=job.cold,
-                seed=0.5 * (robot.lower + robot.upper) if job.cold else job.q[0],
-                budget=budget, tolerance=1e-7,
-            )  # fmt: skip
-            worker = Path(__file__).with_name("placo_worker.py")
-            subprocess.run([str(python), str(worker), str(question), str(answer)], check=True)
-            found = np.load(answer)
-        times = found["times"]
-        row.cells[name] = (1 / np.median(times), *jobs.verdict(robot, job, found["q"]))
+        q, times = placo_run(robot, job, budget, python)
+        row.cells[name] = (1 / np.median(times), *jobs.verdict(robot, job, q))
         if name == "gait":
             row.cells["online"] = online_cell(times)
+            row.again = partial(placo_run, robot, job, budget / 8, python)
     return row
+
+
+def placo_run(robot, job, budget, python):
+    with tempfile.TemporaryDirectory() as folder:
+        question, answer = Path(folder) / "job.npz", Path(folder) / "answer.npz"
+        np.savez(
+            question, urdf=robot.urdf, joints=robot.joints, placement=robot.placement,
+            lower=robot.lower, upper=robot.upper, left=job.left, right=job.right, cold=job.cold,
+            seed=0.5 * (robot.lower + robot.upper) if job.cold else job.q[0],
+            budget=budget, tolerance=1e-7,
+        )  # fmt: skip
+        worker = Path(__file__).with_name("placo_worker.py")
+        subprocess.run([str(python), str(worker), str(question), str(answer)], check=True)
+        found = np.load(answer)
+        return found["q"], found["times"]
 
 
 def ours(robot, work, budget):
@@ -165,10 +175,19 @@ def raw(robot, work, budget):
 def online(robot, job, budget):
     row = Row("**exo_pin Online** (verified, pure Python)")
     loop = ik.Online(robot, job.q[0])
-    q, times = jobs.loop(lambda left, right, _: loop.step(left, right), job, job.q[0], budget)
+    row.again = partial(jobs.loop, lambda left, right, _: loop.step(left, right), job, job.q[0], budget / 8)
+    q, times = row.again()
     row.cells["gait"] = (1 / np.median(times), *jobs.verdict(robot, job, q))
     row.cells["online"] = online_cell(times)
     return row
+
+
+def in_turns(rows, rounds=12):
+    """One frame per call, one solver after the other in several rounds; each keeps its best median."""
+    for _ in range(rounds):
+        for row in rows:
+            if hasattr(row, "again") and row.cells["online"][0] < IN_THE_RACE:
+                row.cells["online"] = min(row.cells["online"], online_cell(row.again()[1]))
 
 
 def online_cell(times):
