@@ -13,11 +13,13 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import description as description
     from exo_pin import devices as devices
     from exo_pin import dh as dh
+    from exo_pin import edit as edit
     from exo_pin import feasible as feasible
     from exo_pin import formats as formats
     from exo_pin import gait as gait
     from exo_pin import ik as ik
     from exo_pin import kinematics as kinematics
+    from exo_pin import markers as markers
     from exo_pin import retarget as retarget
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
@@ -30,7 +32,9 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin.errors import GaitError as GaitError
     from exo_pin.errors import LimitError as LimitError
     from exo_pin.errors import UnknownNameError as UnknownNameError
+    from exo_pin.formats import Markers as Markers
     from exo_pin.formats import load_gait as load_gait
+    from exo_pin.formats import load_markers as load_markers
     from exo_pin.formats import save_gait as save_gait
     from exo_pin.gait import Event as Event
     from exo_pin.gait import Gait as Gait
@@ -44,12 +48,12 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
 __version__ = "0.1.0"
 
 _HOMES = {
-    "exo_pin": "anatomy compare crosscheck description devices dh feasible formats gait ik kinematics "
-    "retarget viewer",
+    "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "
+    "markers retarget viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",
-    "exo_pin.formats": "load_gait save_gait",
+    "exo_pin.formats": "Markers load_gait load_markers save_gait",
     "exo_pin.gait": "Event Gait normative_gait",
     "exo_pin.kinematics": "poses",
     "exo_pin.robot": "Robot load_robot load_urdf",

@@ -20,6 +20,8 @@ COMMANDS = {
     "fk": "forward kinematics: a gait's foot poses as CSV",
     "ik": "inverse kinematics: joint angles from a table of foot poses",
     "convert": "a gait from one file format to another",
+    "cycles": "a walk cut into cycles: mean, spread, spatiotemporal numbers",
+    "edit": "adjust a walk: time, amplitude, stride, clearance, sides, ramps, smoothing",
     "body": "make a body file from a person's measures",
     "urdf": "the exoskeleton's URDF for a body",
     "devices": "the exoskeletons and planar models to choose from",

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from exo_pin.cli import options
 
 _EXAMPLES = """examples:
   exo-pin convert walk.mot walk.csv
   exo-pin convert walk.csv walk.mot          the knee is written positive, and the header says so
-  exo-pin convert free normal.csv            a normal walk as a file"""
+  exo-pin convert free normal.csv            a normal walk as a file
+  exo-pin convert walk.trc walk.npz          markers by inverse kinematics on a body scaled to them
+  exo-pin convert free walk.yaml             a ROS JointTrajectory for a controller
+  exo-pin convert lab.csv walk.csv --units deg --map t=time --map KneeL=left_knee_flexion ..."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -17,16 +21,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     options.add_gait(parser, default=None)
     parser.add_argument(
-        "output", metavar="OUT", help="the new file; its ending (.csv .mot .sto) is the format"
+        "output",
+        metavar="OUT",
+        help="the new file; its ending (.csv .mot .sto .npz .yaml .json .c3d) is the format",
     )
     options.add_body(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Read and write."""
-    from exo_pin.formats import save_gait
+    from exo_pin.formats import FORMATS, save_gait
 
     gait = options.gait_from(args, options.body_from(args))
     save_gait(gait, args.output)
     print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s")
+    if gait.base is not None and not FORMATS[Path(args.output).suffix.lower()].base:
+        print("the pelvis's motion is left out: this format has joint angles only")
     return 0

@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from exo_pin.cli import options, show
+from exo_pin.cli import cycles, options, show
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
+  exo-pin info walk.trc                  a marker trial, solved by inverse kinematics
   exo-pin info fast --json"""
 
 
@@ -46,18 +47,32 @@ def run(args: argparse.Namespace) -> int:
         print(f"  {event['time_s']:.3f} s  {event['side']} {event['kind']}  ({event['source']})")
     if facts["events_note"]:
         print(f"  {facts['events_note']}")
+    _print_walk(facts)
     return 0
+
+
+def _print_walk(facts: dict[str, Any]) -> None:
+    """Cycles and plausibility."""
+    if facts["cycles"]:
+        counts = ", ".join(f"{n} {side}" for side, n in facts["cycles"].items())
+        speed, cadence = (facts["spatiotemporal"].get(name, {}) for name in ("speed", "cadence"))
+        print(f"cycles: {counts}; {speed['mean']:.2f} m/s, {cadence['mean']:.0f} steps/min (exo-pin cycles)")
+    else:
+        print("cycles: no gait cycles found")
+    print("plausible" if not facts["doubts"] else "doubtful: " + "; ".join(facts["doubts"]))
 
 
 def _facts(args: argparse.Namespace) -> dict[str, Any]:
     import numpy as np
 
     from exo_pin import crosscheck
+    from exo_pin.gait import doubts
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
-    gait, note = options.with_events(load_robot(body), options.gait_from(args, body))
-    ranges = crosscheck.limits(load_robot(body), gait)
+    robot = load_robot(body)
+    gait, note = options.with_events(robot, options.gait_from(args, body))
+    ranges = crosscheck.limits(robot, gait)
     peaks = np.degrees(np.abs(gait.dq).max(axis=0))
     return {
         "source": gait.source,
@@ -78,4 +93,6 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
         ],
         "events_note": note,
+        "doubts": list(doubts(gait)),
+        **cycles.facts(robot, gait),
     }

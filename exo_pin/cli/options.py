@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.body import both_sides
+from exo_pin.cli import trials
 from exo_pin.errors import DescriptionError, GaitError
 
 if TYPE_CHECKING:
@@ -20,7 +22,9 @@ SPEEDS = ("very_slow", "slow", "free", "fast", "very_fast")
 
 def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -> None:
     """GAIT: a file, or the name of one of the normative speeds."""
-    what = f"a gait file (.csv, .mot, .sto) or a normal walk: {', '.join(SPEEDS)}"
+    what = (
+        f"a gait file (.csv .mot .sto .npz .yaml .json .c3d .trc ...) or a normal walk: {', '.join(SPEEDS)}"
+    )
     if default is None:
         parser.add_argument("gait", metavar="GAIT", help=what)
     else:
@@ -29,17 +33,34 @@ def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -
         )
     parser.add_argument(
         "--preset",
-        choices=("opensim-gait2392", "opensim-rajagopal"),
-        help="sign convention of an OpenSim file whose knee does not tell it",
+        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
+        help="sign convention (and names) of a file that does not tell it",
     )
+    trials.add(parser)
 
 
 def gait_from(args: argparse.Namespace, body: Body) -> Gait:
-    """The gait that the arguments name."""
-    return load(args.gait, body, preset=args.preset)
+    """The gait that the arguments name; reasons to doubt how it was read go to stderr."""
+    walk = trials.gait(args)
+    if walk is None:
+        mapping = {column: str(joint) for column, joint in map(_column, args.map)}
+        walk = load(args.gait, body, preset=args.preset, mapping=mapping, units=args.units)
+    from exo_pin.gait import doubts
+
+    for reason in doubts(walk):
+        print(f"warning: {reason}", file=sys.stderr)
+    return walk
 
 
-def load(name: str, body: Body, *, preset: str | None = None) -> Gait:
+def _column(text: str) -> tuple[str, str]:
+    """`COLUMN=JOINT` as a pair; a column's own name may hold the sign `=`."""
+    column, found, joint = text.rpartition("=")
+    if not (found and column and joint):
+        raise DescriptionError(f"--map {text!r} is not of the form COLUMN=JOINT")
+    return column, joint
+
+
+def load(name: str, body: Body, **reading: Any) -> Gait:
     """A gait by file or speed; a normal walk's stride time follows the body's legs."""
     if name in SPEEDS and not Path(name).exists():
         from exo_pin.gait import normative_gait
@@ -47,7 +68,7 @@ def load(name: str, body: Body, *, preset: str | None = None) -> Gait:
         return normative_gait(name, leg_length=body.leg_length)
     from exo_pin.formats import load_gait
 
-    return load_gait(name, preset=preset)
+    return load_gait(name, **reading)
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:
@@ -82,6 +103,9 @@ def body_from(args: argparse.Namespace) -> Body:
     Raises:
         DescriptionError: A measure is not plausible.
     """
+    scaled = trials.body(args)
+    if scaled is not None:
+        return dataclasses.replace(scaled, wearer=False) if args.no_wearer else scaled
     measures = {name: getattr(args, name) for name in ("stature", "mass", "sex", "waist_width", "hip_width")}
     values: dict[str, Any] = {name: value for name, value in measures.items() if value is not None}
     values |= dict(map(assignment, args.set))

@@ -98,7 +98,9 @@ def load_gait(
     path = Path(path)
     if path.suffix.lower() in MARKER_FORMATS and path.suffix.lower() not in FORMATS:
         raise FormatError(path, "holds markers, not angles; exo_pin.markers makes a walk of them")
-    return _format(path, FORMATS).read(path, Reading(preset, mapping, units))
+    return _format(path, FORMATS | dict.fromkeys(MARKER_FORMATS, FORMATS[".c3d"])).read(
+        path, Reading(preset, mapping, units)
+    )
 
 
 def load_markers(path: str | Path) -> Markers:

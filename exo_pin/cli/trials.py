@@ -1,0 +1,88 @@
+"""Marker trials on the command line: solved once, their body used where no measure is given."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
+    from exo_pin.gait import Gait
+    from exo_pin.markers import Reconstruction
+
+MEASURES = ("body", "stature", "waist_width", "hip_width", "set")
+"""Options by which the user says the body's sizes."""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Options of tables of other laboratories and of marker trials."""
+    group = parser.add_argument_group("files of other laboratories")
+    group.add_argument(
+        "--map",
+        action="append",
+        default=[],
+        metavar="COLUMN=JOINT",
+        help="a table's column is this joint, or `time`; --map=-COLUMN=JOINT turns the sign, a number as "
+        "COLUMN holds the joint there",
+    )
+    group.add_argument("--units", choices=("deg", "rad"), help="of a mapped table's angles")
+    group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
+    group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
+
+
+def found(args: argparse.Namespace) -> Reconstruction | None:
+    """The walk of the arguments' marker trial, or None where GAIT is no trial or has angles of its own.
+
+    Raises:
+        FormatError: The trial cannot be read, or makes no walk.
+    """
+    path = Path(getattr(args, "gait", None) or "")
+    if path.suffix.lower() not in (".trc", ".c3d") or not hasattr(args, "markers"):
+        return None
+    chosen = None if args.markers in (None, "auto") else args.markers
+    if path.suffix.lower() == ".c3d" and args.markers is None and _has_angles(path):
+        return None
+    return _solved(path, args.static, chosen, args.mass, args.sex or "male")
+
+
+def body(args: argparse.Namespace) -> Body | None:
+    """The body that the trial was solved on, unless the user measured another."""
+    if any(getattr(args, name, None) for name in MEASURES):
+        return None
+    trial = found(args)
+    return None if trial is None else trial.body
+
+
+def gait(args: argparse.Namespace) -> Gait | None:
+    """The trial's walk; how well the markers are met goes to stderr."""
+    trial = found(args)
+    if trial is None:
+        return None
+    worst = trial.worst.max() * 1e3
+    print(
+        f"markers ({trial.marker_set}): RMS {trial.total_rms * 1e3:.1f} mm, worst frame "
+        f"{trial.rms.max() * 1e3:.1f} mm, furthest marker {worst:.1f} mm; body scaled to "
+        f"{trial.body.stature:.2f} m",
+        file=sys.stderr,
+    )
+    return trial.gait
+
+
+@lru_cache(maxsize=2)
+def _solved(
+    path: Path, static: str | None, markers: str | None, mass: float | None, sex: str
+) -> Reconstruction:
+    from exo_pin.markers import load_walk
+
+    return load_walk(path, static=static, markers=markers, mass=mass, sex=sex)
+
+
+@lru_cache(maxsize=2)
+def _has_angles(path: Path) -> bool:
+    from exo_pin.formats import load_markers
+    from exo_pin.formats.c3d import has_angles
+
+    return has_angles(load_markers(path))

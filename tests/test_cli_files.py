@@ -1,0 +1,157 @@
+"""Commands on files of other laboratories: mapped tables, marker trials, cycles and adjustments."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.cli import main
+from exo_pin.formats import load_gait, save_gait
+from exo_pin.gait import Gait, normative_gait
+
+EXACT = 1e-9  # [rad] degrees in text and back
+
+
+def run(capsys, *words):
+    code = main(list(map(str, words)))
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+@pytest.fixture
+def recording(tmp_path):
+    """Three cycles of the normal walk as a recording without events."""
+    long = normative_gait("free").repeated(3)
+    path = tmp_path / "walk.csv"
+    save_gait(Gait(long.time, long.q, base=long.base, source="three cycles"), path)
+    return path
+
+
+@pytest.mark.parametrize("ending", [".npz", ".yaml", ".json", ".c3d"])
+def test_convert_writes_every_format(capsys, tmp_path, ending):
+    path = tmp_path / f"walk{ending}"
+    code, out, _ = run(capsys, "convert", "free", path)
+    assert code == 0
+    assert load_gait(path).q == pytest.approx(normative_gait("free").q, abs=1e-6)
+    assert ("pelvis's motion is left out" in out) == (ending in (".yaml", ".json"))
+
+
+def test_a_foreign_table_is_mapped_on_the_command_line(capsys, tmp_path):
+    walk = normative_gait("free")
+    table = tmp_path / "lab.csv"
+    knee = np.degrees(walk.q[:, JOINTS.index("left_knee_flexion")])
+    rows = "\n".join(f"{t!r};{-k!r}" for t, k in zip(walk.time.tolist(), knee.tolist(), strict=True))
+    table.write_text("seconds;KneeL\n" + rows)
+    others = ",".join(joint for joint in JOINTS if joint != "left_knee_flexion")
+    words = [
+        "--map",
+        "seconds=time",
+        "--map=-KneeL=left_knee_flexion",
+        "--map",
+        f"0={others}",
+        "--units",
+        "deg",
+    ]
+    code, _, err = run(capsys, "convert", table, tmp_path / "walk.csv", *words)
+    assert (code, err) == (0, "")
+    np.testing.assert_allclose(load_gait(tmp_path / "walk.csv").q[:, 3], walk.q[:, 3], atol=EXACT)
+    code, _, err = run(capsys, "convert", table, tmp_path / "x.csv", *words[:3], "--map", "KneeL")
+    assert code == 2
+    assert "not of the form COLUMN=JOINT" in err
+
+
+def test_a_wrong_sign_is_warned_of(capsys, tmp_path):
+    walk = normative_gait("free")
+    q = walk.q.copy()
+    q[:, JOINTS.index("left_knee_flexion")] *= -1
+    save_gait(Gait(walk.time, q), tmp_path / "wrong.csv")
+    code, out, err = run(capsys, "info", tmp_path / "wrong.csv")
+    assert code == 0
+    assert "warning: left knee bends backwards" in err
+    assert "doubtful: left knee bends backwards" in out
+
+
+def test_cycles_prints_numbers_and_writes_mean_and_spread(capsys, tmp_path, recording):
+    table, mean = tmp_path / "cycles.csv", tmp_path / "mean.csv"
+    code, out, _ = run(capsys, "cycles", recording, "-o", table, "--mean", mean)
+    assert code == 0
+    assert "cadence" in out
+    lines = [line for line in table.read_text().splitlines() if not line.startswith("#")]
+    assert len(lines) == 1 + 101
+    assert lines[0].startswith("percent,left_hip_flexion_mean_deg,left_hip_flexion_sd_deg")
+    assert load_gait(mean).periodic
+    code, out, _ = run(capsys, "cycles", recording, "--json")
+    facts = json.loads(out)
+    assert facts["cycles"]["left"] >= 1
+    assert facts["spatiotemporal"]["speed"]["unit"] == "m/s"
+
+
+def test_standing_has_no_cycles(capsys, tmp_path):
+    save_gait(Gait(np.arange(100) / 50, np.full((100, 12), 0.1)), tmp_path / "stand.csv")
+    code, _, err = run(capsys, "cycles", tmp_path / "stand.csv")
+    assert code == 2
+    assert "no gait cycles found" in err.splitlines()[-1]
+    code, out, _ = run(capsys, "info", tmp_path / "stand.csv")
+    assert code == 0
+    assert "cycles: no gait cycles found" in out
+
+
+def test_edit_adjusts_in_order_and_says_so(capsys, tmp_path):
+    path = tmp_path / "new.csv"
+    words = ["--slower", 2, "--stride", 0.9, "--amplitude", "ankle_inversion=0.5", "--mirror", "--cutoff", 12]
+    code, out, _ = run(capsys, "edit", "free", path, *words)
+    assert code == 0
+    gait = load_gait(path)
+    assert gait.duration == pytest.approx(2 * normative_gait("free").duration)
+    said = [
+        gait.source.index(x) for x in ("Butterworth", "mirrored", "amplitude", "stride x0.9", "retimed x2")
+    ]
+    assert said == sorted(said)
+    assert "stride x0.9" in out
+
+
+def test_edit_blends_symmetrises_and_ramps(capsys, tmp_path):
+    path = tmp_path / "new.npz"
+    code, _, _ = run(capsys, "edit", "free", path, "--symmetric", "--blend", "slow=0.5", "--ramp", 1, 1)
+    assert code == 0
+    assert np.abs(load_gait(path).dq[[0, -1]]).max() < 0.05
+
+
+def test_edit_writes_what_leaves_the_limits_but_exits_with_1(capsys, tmp_path):
+    path = tmp_path / "wild.csv"
+    code, out, _ = run(capsys, "edit", "free", path, "--amplitude", "knee_flexion=3")
+    assert code == 1
+    assert path.exists()
+    assert "left_knee_flexion: angle" in out
+    for words in (["--stride", 9], ["--amplitude", "knee_flexion"], ["--blend", "slow"], ["--ramp", -1, 1]):
+        code, _, err = run(capsys, "edit", "free", tmp_path / "no.csv", *words)
+        assert (code, len(err.splitlines())) == (2, 1)
+        assert not (tmp_path / "no.csv").exists()
+
+
+@pytest.mark.parametrize("command", ["info", "convert"])
+def test_a_marker_trial_is_solved_on_its_own_body(capsys, tmp_path, shared, command):
+    trial = shared / "opensim_subject01_walk/subject01_walk1.trc"
+    words = [tmp_path / "walk.csv"] if command == "convert" else ["--json"]
+    code, out, err = run(capsys, command, trial, *words)
+    assert code == 0
+    assert "RMS" in err
+    if command == "info":
+        assert len(json.loads(out)["events"]) == 8
+
+
+def test_what_is_no_gait_is_refused_in_one_line(capsys, tmp_path, shared):
+    folder = shared / "opensim_subject01_walk"
+    for name in (
+        "subject01_walk1_grf.mot",
+        "subject01_walk1_id.sto",
+        "subject01_simbody.osim",
+        "no.trc",
+        "no.c3d",
+    ):
+        code, _, err = run(capsys, "convert", folder / name, tmp_path / "x.csv")
+        assert (code, len(err.splitlines())) == (2, 1), name
+    assert not list(tmp_path.iterdir())
