@@ -21,7 +21,7 @@ from exo_pin.ik.starts import starts
 
 Array = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
-CHUNK = 3000
+CHUNK = 6000
 KNEE = 3
 KICK = 0.1
 """How far the knee is bent to leave a saddle near the straight leg [rad]."""

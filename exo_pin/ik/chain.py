@@ -150,7 +150,8 @@ def _rodrigues(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
     ]
     if R is _IDENTITY:
         return turn
-    return [[_sum([row[k] * turn[k][j] for k in range(3)]) for j in range(3)] for row in R]
+    columns = list(zip(*turn, strict=True))
+    return [[_dot3(row, column) for column in columns] for row in R]
 
 
 def _dot2(x: Number, a: Array, y: Number, b: Array) -> Number:
@@ -167,10 +168,10 @@ def _is_zero(x: Number) -> bool:
     return isinstance(x, float) and x == 0.0
 
 
-def _sum(parts: list[Number]) -> Number:
-    total = parts[0]
-    for part in parts[1:]:
-        total = total + part
+def _dot3(a: list[Number], b: tuple[Number, ...]) -> Number:
+    total = a[0] * b[0]
+    total += a[1] * b[1]
+    total += a[2] * b[2]
     return total
 
 

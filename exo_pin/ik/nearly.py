@@ -16,7 +16,7 @@ from exo_pin.ik.ideal import IdealLeg
 from exo_pin.ik.leg import Leg
 
 Array = npt.NDArray[np.float64]
-ROUNDS = 3
+ROUNDS = 4
 BENT = 0.06
 """The knee starts bent by this at least [rad]: from a straight leg the iteration would only creep."""
 
