@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import io
+import json
 import logging
 import warnings
 import xml.etree.ElementTree as ET
@@ -12,6 +13,7 @@ import pytest
 
 from exo_pin import crosscheck, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, MOVEMENTS, Body
+from exo_pin.cli import main
 from exo_pin.devices import DEVICES, Actuator, Device
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.gait import normative_gait
@@ -240,3 +242,29 @@ def test_a_wrong_device_file_is_refused_by_name(tmp_path, old, new):
 def test_unknown_devices_are_refused_with_a_hint():
     with pytest.raises(UnknownNameError, match="lokomat"):
         devices.find("locomat")
+
+
+@pytest.mark.parametrize("name", ["lokomat", "lopes8", "planar9"])
+def test_check_finds_all_is_well_on_a_device(name, capsys):
+    assert main(["check", "slow", "--device", name, "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert max(facts["fk_max_difference"].values()) <= EXACT
+    assert facts["ik"]["converged"] == facts["ik"]["frames"]
+    assert facts["ik"]["max_angle_error_deg"] < 1e-3
+
+
+def test_the_devices_are_listed_and_shown_with_their_sources(capsys):
+    assert main(["devices"]) == 0
+    listed = capsys.readouterr().out
+    assert all(name in listed for name in DEVICES)
+    assert main(["devices", "lopes8"]) == 0
+    assert "Veneman" in capsys.readouterr().out
+    assert main(["devices", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["lokomat"]["motors"] == 4
+
+
+def test_the_urdf_command_writes_a_device(capsys):
+    assert main(["urdf", "device:=lokomat"]) == 0
+    tree = ET.fromstring(capsys.readouterr().out)
+    moving = {j.get("name") for j in tree.findall("joint") if j.get("type") != "fixed"}
+    assert moving == {*DEVICES["lokomat"].joints, "pelvis_up"}

@@ -14,6 +14,7 @@ _EXAMPLES = """examples:
   exo-pin check                      the normal walk at free speed
   exo-pin check walk.mot --stature 1.82
   exo-pin check fast --json > check.json
+  exo-pin check --device lokomat     all ways of forward kinematics on another device
 
 exit code 0: everything agrees; 1: something does not, or a joint leaves its limits"""
 
@@ -24,17 +25,26 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_gait(parser)
     options.add_body(parser)
     options.add_hip_order(parser)
+    parser.add_argument(
+        "--device",
+        default="exo12",
+        metavar="DEVICE",
+        help="name or device file (default: exo12); another one is checked on what it can do of the gait",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(args: argparse.Namespace) -> int:
     """Check and print; 0 if all is well, else 1."""
-    from exo_pin import crosscheck
+    from exo_pin import crosscheck, devices
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
-    robot = load_robot(body, hip_order=args.hip_order)
+    device = devices.find(args.device).carried()  # the gait itself says where the pelvis is
+    robot = load_robot(body, device=device, hip_order=args.hip_order)
     gait = options.gait_from(args, body)
+    if device.locked:
+        gait = robot.to_gait(robot.from_gait(gait), gait)
     with show.busy("cross-checking"):
         verdict = crosscheck.check(robot, gait)
     if args.json:
