@@ -43,7 +43,8 @@ def found(args: argparse.Namespace) -> Reconstruction | None:
     if path.suffix.lower() not in (".trc", ".c3d") or not hasattr(args, "markers"):
         return None
     chosen = None if args.markers in (None, "auto") else args.markers
-    if path.suffix.lower() == ".c3d" and args.markers is None and _has_angles(path):
+    told = args.markers is not None or args.static is not None
+    if path.suffix.lower() == ".c3d" and not told and _has_angles(path):
         return None
     return _solved(path, args.static, chosen, args.mass, args.sex or "male")
 
