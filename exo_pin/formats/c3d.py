@@ -27,6 +27,7 @@ from exo_pin.gait.rigid import nearest_pose
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 NEWTON_METRES = {"Nmm": 1e-3, "Nm": 1.0, "N.m": 1.0, "N.mm": 1e-3}
+RADIANS = {"deg": np.pi / 180, "degrees": np.pi / 180, "rad": 1.0, "radians": 1.0}
 KINDS = {"foot strike": "heel_strike", "foot off": "toe_off"}
 SECONDS = 60
 """A file of the largest size takes ezc3d some ten."""
@@ -62,7 +63,7 @@ def read_markers(path: Path) -> Markers:
         path, found, "units", METRES
     )
     position = np.where((position == 0).all(axis=2, keepdims=True), np.nan, position)  # 0, 0, 0: not seen
-    scale = _unit(path, found, "angle_units", {"deg": np.pi / 180, "rad": 1.0}, "deg")
+    scale = _unit(path, found, "angle_units", RADIANS, "deg")
     try:
         return Markers(
             time,
