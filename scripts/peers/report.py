@@ -183,11 +183,11 @@ def online(robot, job, budget):
 
 
 def in_turns(rows, rounds=12):
-    """One frame per call, one solver after the other in several rounds; each keeps its best median."""
+    """One frame per call, one solver after the other in several rounds; each keeps its best median and tail."""
     for _ in range(rounds):
         for row in rows:
             if hasattr(row, "again") and row.cells["online"][0] < IN_THE_RACE:
-                row.cells["online"] = min(row.cells["online"], online_cell(row.again()[1]))
+                row.cells["online"] = np.minimum(row.cells["online"], online_cell(row.again()[1]))
 
 
 def online_cell(times):
