@@ -22,6 +22,7 @@ from peers import plots as drawn
 from peers.tables import goals, head, reference, table, version
 
 SEED = 20260101
+TITLE = "# Inverse kinematics against its peers"
 IN_THE_RACE = 100.0  # [us] slower solvers are not asked again
 
 
@@ -57,7 +58,7 @@ def run(*, short, placo, plots=None):
     rows += ours(robot, work, budget)
     say("one frame per call, in turns ...")
     in_turns(rows)
-    parts = [head(short, missing), table(rows), goals(rows)]
+    parts = [TITLE, head(short, missing), table(rows), goals(rows)]
     say("calibrated legs ...")
     parts.append(
         calibrated.section(
@@ -72,6 +73,7 @@ def run(*, short, placo, plots=None):
         drawn.noise(robot, rng, plots)
         if not short:
             drawn.flat(cost, plots)
+            parts.append("![Cost per frame](ik_flat.svg)")
     text = "\n\n".join(parts)
     print("\n" + text, flush=True)
     return text
@@ -183,7 +185,7 @@ def online(robot, job, budget):
 
 
 def in_turns(rows, rounds=12):
-    """One frame per call, one solver after the other in several rounds; each keeps its best median and tail."""
+    """One frame per call, one solver after the other in rounds; each keeps its best median and tail."""
     for _ in range(rounds):
         for row in rows:
             if hasattr(row, "again") and row.cells["online"][0] < IN_THE_RACE:
