@@ -20,6 +20,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import ik as ik
     from exo_pin import kinematics as kinematics
     from exo_pin import markers as markers
+    from exo_pin import report as report
     from exo_pin import retarget as retarget
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
@@ -49,7 +50,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "
-    "markers retarget viewer",
+    "markers report retarget viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",

@@ -15,6 +15,8 @@ COMMANDS = {
     "replay": "watch the exoskeleton walk in the browser, or write one offline page",
     "picture": "one moment of the walk as a PNG",
     "film": "the walk as GIF, WebM or MP4",
+    "report": "one walk as a page for an engineer or clinician",
+    "reproduce": "the paper's figures from our data, with a page that compares",
     "check": "cross-check kinematics and inverse kinematics on a gait",
     "info": "what a gait file holds: joints, ranges, events",
     "fk": "forward kinematics: a gait's foot poses as CSV",

@@ -1,0 +1,106 @@
+"""`exo-pin report`: one walk as one self-contained page for an engineer or a clinician."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import options, show, walk
+from exo_pin.cli.clock import moment
+from exo_pin.errors import DescriptionError
+from exo_pin.files import write_text
+
+if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
+    from exo_pin.gait import Gait
+
+_EXAMPLES = """examples:
+  exo-pin report -o report.html
+  exo-pin report walk.mot --body patient.toml --who "patient 17" -o report.html
+  exo-pin report walk.mot --normal slow --filter 8 -o report.html
+  exo-pin report walk.mot --no-player -o report.html     0.2 MB, for mail and print
+
+The page holds everything and loads nothing; the browser's own "print" makes a PDF of it."""
+
+CUTOFF = 6.0
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument("-o", "--output", metavar="FILE", required=True, help="the page to write (.html)")
+    parser.add_argument("--title", help="heading (default: the walk's name)")
+    parser.add_argument(
+        "--who", default="", help="whose walk it is, or who made the report; printed as given"
+    )
+    parser.add_argument(
+        "--normal",
+        choices=(*options.SPEEDS, "none"),
+        default="free",
+        help="speed of the normative band (default: free)",
+    )
+    parser.add_argument(
+        "--filter",
+        type=float,
+        default=CUTOFF,
+        metavar="HZ",
+        help="low-pass of a recording's velocities and accelerations; 0: none (default: 6)",
+    )
+    parser.add_argument("--no-player", action="store_true", help="leave the 3-D player out")
+    walk.add(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compute, embed the player, write."""
+    from exo_pin import report
+    from exo_pin.robot import load_robot
+
+    if Path(args.output).suffix.lower() not in (".html", ".htm"):
+        raise DescriptionError(f"{args.output}: a report ends in .html")
+    if not (math.isfinite(args.filter) and args.filter >= 0):
+        raise DescriptionError(f"--filter is {args.filter:g}; a frequency in Hz, or 0 for none, is accepted")
+    body, gait = walk.read(args)
+    gait, note = options.with_events(load_robot(body), gait)
+    robot = load_robot(body, device=args.device, hip_order=args.hip_order)
+    name = Path(args.gait).name
+    about = report.About(
+        title=args.title or f"Gait report: {name}",
+        who=args.who,
+        what=name,
+        when=moment(),
+        choices=_choices(args, note),
+    )
+    player = "" if args.no_player else _player(args, body, gait)
+    with show.busy("reporting"):
+        document = report.walk(
+            robot,
+            gait,
+            about=about,
+            player=player,
+            normal=None if args.normal == "none" else args.normal,
+            cutoff=args.filter or None,
+        )
+        page = report.html(document)
+    write_text(args.output, page)
+    print(f"{args.output}: {len(page.encode()) / 1e6:.1f} MB, opens in any browser without a network")
+    return 0
+
+
+def _player(args: argparse.Namespace, body: Body, gait: Gait) -> str:
+    """The offline page as text."""
+    from exo_pin import viewer
+
+    return viewer.html(walk.scene(args, body, gait))
+
+
+def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
+    """What the command line chose."""
+    chosen = {
+        "sign preset of the file": args.preset or "none given",
+        "body": args.body or "from the measures given, else the defaults",
+        "scaling": "angles as given, on the body's own lengths; a normal walk's stride time follows the leg",
+        "player": "left out" if args.no_player else f"{args.support} by the support, speed {args.speed:g}",
+    }
+    return chosen | ({"note on events": note} if note else {})

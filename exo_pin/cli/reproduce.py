@@ -1,0 +1,126 @@
+"""`exo-pin reproduce`: the paper's figures from our data, and a page that says what each shows."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from exo_pin.cli import options, show
+from exo_pin.errors import ExoPinError, FormatError
+from exo_pin.files import write_bytes, write_text
+
+if TYPE_CHECKING:
+    from exo_pin.gait import Gait
+    from exo_pin.report import Rendered
+    from exo_pin.robot import Robot
+
+_EXAMPLES = """examples:
+  exo-pin reproduce -o figures
+  exo-pin reproduce -o figures --gait walk.mot      with a recording in Fig. 4 and 6
+  exo-pin reproduce -o figures --no-render          without the browser's pictures
+
+Writes reproduction.html (one self-contained page), reproduction.md, and every figure as a file of its own.
+The 3-D pictures need Chromium; without it line drawings take their place, and the page says so."""
+
+_POSES = 10
+_SIZE = (300, 460)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="the folder to write into")
+    parser.add_argument(
+        "--gait", metavar="FILE", help="a recorded walk to show in Fig. 4 and to recover in Fig. 6"
+    )
+    parser.add_argument(
+        "--preset",
+        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
+        help="of that file",
+    )
+    parser.add_argument(
+        "--no-render", action="store_true", help="line drawings instead of the browser's pictures"
+    )
+    parser.add_argument("--quality", default="high", help="of the browser's pictures: high (default) or low")
+    options.add_body(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compute, draw, write."""
+    from exo_pin import report
+    from exo_pin.cli.clock import moment
+    from exo_pin.gait import normative_gait
+    from exo_pin.robot import load_robot
+
+    body = options.body_from(args)
+    robot = load_robot(body)
+    gait = normative_gait("free", leg_length=body.leg_length)
+    recording = None
+    if args.gait is not None:
+        recording, _ = options.with_events(robot, options.load(args.gait, body, preset=args.preset))
+    folder = _folder(args.output)
+    with show.busy("drawing"):
+        document = report.reproduction(
+            robot,
+            gait,
+            recording=recording,
+            recording_name=Path(args.gait or "").name,
+            rendered=_rendered(args, robot, gait),
+            when=moment(),
+        )
+    for drawing in document.drawings:
+        write_bytes(folder / drawing.file, drawing.data)
+    write_text(folder / "reproduction.md", report.markdown(document))
+    page = report.html(document)
+    write_text(folder / "reproduction.html", page)
+    print(f"{folder / 'reproduction.html'}: {len(page.encode()) / 1e6:.1f} MB; reproduction.md and")
+    print(f"{len(document.drawings)} figures are beside it")
+    return 0
+
+
+def _folder(name: str) -> Path:
+    folder = Path(name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FormatError(folder, f"cannot be made a folder: {error.strerror}") from error
+    return folder
+
+
+def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
+    """The model and ten poses by the browser; nothing where there is none, and a line that says so."""
+    from exo_pin import viewer
+    from exo_pin.report import Rendered
+    from exo_pin.viewer import film
+
+    if args.no_render:
+        return Rendered()
+    scene = viewer.scene(robot, gait, title="the walk")
+    look: dict[str, Any] = {"quality": args.quality}
+    try:
+        model = film.picture(scene, size=(1200, 900), **look)
+        moving = film.film(
+            scene, Path("poses.gif"), camera="left", size=_SIZE, fps=_POSES / scene.facts.duration, **look
+        )
+    except ExoPinError as error:
+        print(f"no rendered pictures: {error}", file=sys.stderr)
+        return Rendered()
+    return Rendered(model=model, poses=_sheet(moving))
+
+
+def _sheet(moving: bytes) -> bytes:
+    """The frames of a film side by side in two rows, as PNG."""
+    from PIL import Image, ImageSequence
+
+    frames = [frame.convert("RGB") for frame in ImageSequence.Iterator(Image.open(io.BytesIO(moving)))]
+    half = (len(frames) + 1) // 2
+    width, height = frames[0].size
+    sheet = Image.new("RGB", (half * width, 2 * height), "white")
+    for k, frame in enumerate(frames):
+        sheet.paste(frame, (k % half * width, k // half * height))
+    file = io.BytesIO()
+    sheet.save(file, "PNG", optimize=True)
+    return file.getvalue()

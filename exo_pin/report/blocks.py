@@ -1,0 +1,99 @@
+"""What a page is made of: sections of words, tables and drawings, as values without a look."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+Rows = Sequence[Sequence[str]]
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph; `kind` is `"note"` for small print."""
+
+    text: str
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; the first column is text, the others are numbers or short words.
+
+    `prose`: all columns are sentences, set left and wrapped.
+    """
+
+    columns: Sequence[str]
+    rows: Rows
+    caption: str = ""
+    prose: bool = False
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One picture: SVG text or the bytes of a PNG, and what it is called as a file."""
+
+    name: str
+    title: str
+    svg: str = ""
+    png: bytes = b""
+
+    @property
+    def file(self) -> str:
+        """Its file name."""
+        return f"{self.name}.svg" if self.svg else f"{self.name}.png"
+
+    @property
+    def data(self) -> bytes:
+        """What its file holds."""
+        return self.svg.encode() + b"\n" if self.svg else self.png
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Drawings side by side under one caption; `columns` at most (3: small, 2, 1: full width)."""
+
+    drawings: tuple[Drawing, ...]
+    caption: str = ""
+    columns: int = 3
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Key numbers, large: what, value, and whether it is good (None: neither)."""
+
+    items: tuple[tuple[str, str, bool | None], ...]
+
+
+@dataclass(frozen=True)
+class Player:
+    """A whole HTML page to be shown inside the page, in a frame of its own."""
+
+    html: str
+    title: str
+
+
+Block = Words | Table | Figure | Tiles | Player
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and what stands under it."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Document:
+    """A page: title, a line under it, sections."""
+
+    title: str
+    subtitle: str
+    sections: tuple[Section, ...]
+
+    @property
+    def drawings(self) -> tuple[Drawing, ...]:
+        """Every drawing in it, in order."""
+        blocks = [block for section in self.sections for block in section.blocks]
+        return tuple(d for block in blocks if isinstance(block, Figure) for d in block.drawings)

@@ -1,0 +1,271 @@
+"""Charts: curves, bands, limits and shaded spans over two axes, as SVG."""
+
+from __future__ import annotations
+
+import math
+import zlib
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.report import svg
+
+Array = NDArray[np.float64]
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 10.0, 26.0, 34.0
+_LEGEND_ROW = 15.0
+_LETTER = 5.6  # mean width of a letter at 10.5 px
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A line through `(x, y)`, both `(n,)`; NaN makes a gap. Without a label it is not in the legend."""
+
+    x: ArrayLike
+    y: ArrayLike
+    colour: str
+    label: str = ""
+    dash: str | None = None
+    width: float = 1.7
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """The area between `low` and `high`, both `(n,)`, over `x`."""
+
+    x: ArrayLike
+    low: ArrayLike
+    high: ArrayLike
+    colour: str
+    label: str = ""
+    opacity: float = 0.22
+
+
+class Span(NamedTuple):
+    """A shaded part of the x axis; `lane` 0 or 1: a thin strip at the bottom, None: the whole height."""
+
+    start: float
+    end: float
+    colour: str
+    label: str = ""
+    lane: int | None = None
+
+
+class Level(NamedTuple):
+    """A dashed horizontal line, e.g. a limit."""
+
+    y: float
+    colour: str = svg.GREY
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Chart:
+    """What to draw.
+
+    Attributes:
+        title: Heading; the y axis's unit belongs here.
+        x_label: Under the x axis.
+        curves: In the order of drawing.
+        bands: Under the curves.
+        spans: Under everything.
+        levels: Horizontal lines; they do not widen the y axis.
+        x_range: From, to; that of the curves if left out.
+        y_range: Likewise.
+        least: Smallest extent of the y axis, so that a still curve does not look restless.
+        equal: One unit is as long on both axes; the height follows.
+        width: Of the picture [px].
+        height: Of the picture without its legend [px].
+    """
+
+    title: str
+    x_label: str = ""
+    curves: tuple[Curve, ...] = ()
+    bands: tuple[Band, ...] = ()
+    spans: tuple[Span, ...] = ()
+    levels: tuple[Level, ...] = ()
+    x_range: tuple[float, float] | None = None
+    y_range: tuple[float, float] | None = None
+    least: float = 0.0
+    equal: bool = False
+    width: float = 360.0
+    height: float = 210.0
+
+
+class _Frame(NamedTuple):
+    """The plotting area: ranges, and where it lies [px]."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    left: float
+    top: float
+    width: float
+    height: float
+
+    def points(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """Points `(n, 2)` [px]."""
+        return np.stack([self.across(np.asarray(x, float)), self.up(np.asarray(y, float))], axis=1)
+
+    def across(self, x: Array | float) -> Array:
+        share = (np.asarray(x) - self.x[0]) / (self.x[1] - self.x[0])
+        return np.asarray(self.left + self.width * share)
+
+    def up(self, y: Array | float) -> Array:
+        share = (np.asarray(y) - self.y[0]) / (self.y[1] - self.y[0])
+        return np.asarray(self.top + self.height * (1 - share))
+
+
+def draw(chart: Chart) -> str:
+    """The chart as one `<svg>` that scales to the width it is given."""
+    frame = _frame(chart)
+    legend, rows = _legend(chart, frame)
+    height = frame.top + frame.height + _BOTTOM + _LEGEND_ROW * rows
+    clip = f"c{zlib.crc32(repr(frame).encode()):x}"  # the same area has the same name, and that is harmless
+    inner = [*_spans(chart, frame), *_bands(chart, frame), *_levels(chart, frame), *_curves(chart, frame)]
+    area = {"x": frame.left, "y": frame.top, "width": frame.width, "height": frame.height}
+    parts = [
+        svg.tag("clipPath", svg.tag("rect", **area), id=clip),
+        svg.text(frame.left - 2, 15, chart.title, font_size=12.5, font_weight=600),
+        *_axes(chart, frame),
+        svg.tag("g", "".join(inner), clip_path=f"url(#{clip})"),
+        *legend,
+    ]
+    return svg.drawing(chart.width, height, parts, chart.title)
+
+
+def ticks(low: float, high: float, count: int = 5) -> list[float]:
+    """Round numbers (1, 2, 5 times a power of ten) from low to high, about `count` of them."""
+    raw = (high - low) / max(count, 1)
+    power = 10.0 ** math.floor(math.log10(raw))
+    step = next(power * k for k in (1, 2, 5, 10) if power * k >= raw * 0.72)
+    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+def extent(values: list[ArrayLike], least: float, *, pad: float = 0.06) -> tuple[float, float]:
+    """The finite values' range, widened by `pad` and to at least `least`; 0 .. 1 if there are none."""
+    flat = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values] or [np.zeros(0)])
+    flat = flat[np.isfinite(flat)]
+    if not len(flat):
+        return 0.0, 1.0
+    low, high = float(flat.min()), float(flat.max())
+    span = max(high - low, least, 1e-9 * max(abs(low), abs(high)), 1e-12)
+    middle = (low + high) / 2
+    return middle - span * (0.5 + pad), middle + span * (0.5 + pad)
+
+
+def _frame(chart: Chart) -> _Frame:
+    x = chart.x_range or extent([c.x for c in chart.curves] + [b.x for b in chart.bands], 0.0, pad=0.0)
+    seen = [c.y for c in chart.curves] + [edge for b in chart.bands for edge in (b.low, b.high)]
+    y = chart.y_range or extent(seen, chart.least)
+    width = chart.width - _LEFT - _RIGHT
+    height = chart.height - _TOP - _BOTTOM
+    if chart.equal:
+        height = width * (y[1] - y[0]) / (x[1] - x[0])
+    return _Frame(x, y, _LEFT, _TOP, width, height)
+
+
+def _axes(chart: Chart, frame: _Frame) -> list[str]:
+    bottom, right = frame.top + frame.height, frame.left + frame.width
+    count = max(3, min(6, int(frame.height / 28)))
+    parts = []
+    ys, xs = ticks(*frame.y, count), ticks(*frame.x, max(4, int(frame.width / 62)))
+    for y in ys:
+        at = float(frame.up(y))
+        strong = abs(y) < 1e-12
+        parts.append(
+            svg.line([[frame.left, at], [right, at]], "#9aa4af" if strong else svg.FAINT, stroke_width=0.8)
+        )
+        parts.append(
+            svg.text(frame.left - 5, at + 3.5, _tick(y, ys), text_anchor="end", font_size=10, fill=svg.GREY)
+        )
+    for x in xs:
+        at = float(frame.across(x))
+        parts.append(svg.line([[at, bottom], [at, bottom + 4]], "#9aa4af", stroke_width=0.8))
+        parts.append(
+            svg.text(at, bottom + 14, _tick(x, xs), text_anchor="middle", font_size=10, fill=svg.GREY)
+        )
+    parts.append(svg.line([[frame.left, bottom], [right, bottom]], "#9aa4af", stroke_width=0.8))
+    middle = frame.left + frame.width / 2
+    parts.append(
+        svg.text(middle, bottom + 28, chart.x_label, text_anchor="middle", font_size=10.5, fill=svg.GREY)
+    )
+    return parts
+
+
+def _tick(value: float, all_of_them: list[float]) -> str:
+    step = all_of_them[1] - all_of_them[0] if len(all_of_them) > 1 else 1.0
+    if step < 1e-4:
+        return f"{value + 0.0:.0e}"
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))
+    return f"{round(value, digits) + 0.0:.{digits}f}"
+
+
+def _spans(chart: Chart, frame: _Frame) -> list[str]:
+    parts = []
+    for span in chart.spans:
+        a, b = (float(frame.across(np.clip(x, *frame.x))) for x in (span.start, span.end))
+        top, tall = frame.top, frame.height
+        if span.lane is not None:
+            top, tall = frame.top + frame.height - 5 * (2 - span.lane), 4.0
+        opacity = 0.08 if span.lane is None else 0.75
+        parts.append(svg.tag("rect", x=a, y=top, width=b - a, height=tall, fill=span.colour, opacity=opacity))
+    return parts
+
+
+def _bands(chart: Chart, frame: _Frame) -> list[str]:
+    parts = []
+    for band in chart.bands:
+        over, under = frame.points(band.x, band.high), frame.points(band.x, band.low)
+        outline = svg.path(np.concatenate([over, under[::-1]]), closed=True)
+        parts.append(svg.tag("path", d=outline, fill=band.colour, fill_opacity=band.opacity))
+    return parts
+
+
+def _levels(chart: Chart, frame: _Frame) -> list[str]:
+    parts = []
+    for level in chart.levels:
+        if frame.y[0] <= level.y <= frame.y[1]:
+            at, right = float(frame.up(level.y)), frame.left + frame.width
+            ends = [[frame.left, at], [right, at]]
+            parts.append(svg.line(ends, level.colour, stroke_dasharray="2 3", stroke_width=1.1))
+    return parts
+
+
+def _curves(chart: Chart, frame: _Frame) -> list[str]:
+    return [
+        svg.line(frame.points(c.x, c.y), c.colour, stroke_width=c.width, stroke_dasharray=c.dash)
+        for c in chart.curves
+    ]
+
+
+def _legend(chart: Chart, frame: _Frame) -> tuple[list[str], int]:
+    """Keys below the axis, and how many rows they take."""
+    keys = {c.label: ("line", c) for c in chart.curves if c.label}
+    marks: dict[str, str] = {
+        label: svg.line([[0, 0], [16, 0]], c.colour, stroke_width=max(c.width, 1.6), stroke_dasharray=c.dash)
+        for label, (_, c) in keys.items()
+    }
+    for band in chart.bands:
+        marks[band.label] = _swatch(band.colour, band.opacity)
+    for level in chart.levels:
+        if frame.y[0] <= level.y <= frame.y[1]:
+            marks[level.label] = svg.line([[0, 0], [16, 0]], level.colour, stroke_dasharray="2 3")
+    for span in chart.spans:
+        marks[span.label] = _swatch(span.colour, 0.12 if span.lane is None else 0.75)
+    marks.pop("", None)
+    parts, row, x = [], 0, frame.left
+    for label, mark in marks.items():
+        width = 22 + _LETTER * len(label) + 12
+        if x > frame.left and x + width > chart.width:
+            row, x = row + 1, frame.left
+        y = frame.top + frame.height + _BOTTOM + 10 + _LEGEND_ROW * row
+        parts.append(svg.tag("g", mark, transform=f"translate({svg.number(x)} {svg.number(y - 3.5)})"))
+        parts.append(svg.text(x + 21, y, label, font_size=10.5))
+        x += width
+    return parts, row + 1 if parts else 0
+
+
+def _swatch(colour: str, opacity: float) -> str:
+    return svg.tag("rect", x=0, y=-4, width=16, height=8, fill=colour, opacity=opacity)

@@ -1,0 +1,90 @@
+"""Sections of a report that say how far to trust it: inverse kinematics' residuals, cross-checks."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.crosscheck import BENT_KNEE, FK_TOLERANCE, IK_TOLERANCE, Check
+from exo_pin.gait import Gait
+from exo_pin.report import svg
+from exo_pin.report.blocks import Drawing, Figure, Section, Table, Words
+from exo_pin.report.chart import Chart, Curve, Level, draw
+
+_WITNESSES = {
+    "recursion": "the paper's recursion",
+    "dh": "modified Denavit-Hartenberg table",
+    "yourdfpy": "yourdfpy, reading the same URDF",
+}
+
+
+def inverse(gait: Gait, verdict: Check) -> Section:
+    """The round trip: the walk's feet, back to angles."""
+    recovery, facts = verdict.recovery, verdict.facts()["ik"]
+    track = recovery.track
+    used = sorted(set(track.answered_by))
+    inside = int(facts["frames_within_limits"])
+    rows = [
+        ["frames", str(facts["frames"]), ""],
+        ["frames with all angles within the limits", str(inside), ""],
+        ["frames whose feet were reached", str(facts["converged"]), ""],
+        ["largest position error, within limits", f"{facts['max_position_error_m']:.1e}", "m"],
+        ["largest rotation error, within limits", f"{facts['max_rotation_error_rad']:.1e}", "rad"],
+        [
+            f"largest angle error, within limits, knee bent > {np.degrees(BENT_KNEE):g} deg",
+            f"{facts['max_angle_error_deg']:.1e}",
+            "deg",
+        ],
+        ["closed form against iteration, largest difference", f"{facts['method_agreement_deg']:.1e}", "deg"],
+        ["frames with a joint on its limit", str(int(track.active_limits.any(axis=1).sum())), ""],
+        ["least reach to spare", _spare(track.reach_slack), "mm"],
+        ["answered by", ", ".join(used), ""],
+    ]
+    words = (
+        "The feet of the walk's own angles on this model are the targets; inverse kinematics finds angles "
+        "within the limits. Where the walk leaves the limits (a knee beyond its stop), the answer is another "
+        "posture with the same feet, if there is one."
+    )
+    decades = np.log10(np.maximum(track.position_error, 1e-17))
+    chart = Chart(
+        title="Position error of the feet, log10 of [m]",
+        x_label="time [s]",
+        curves=tuple(
+            Curve(gait.time, decades[:, k], svg.COLOURS[side], side)
+            for k, side in enumerate(("left", "right"))
+        ),
+        levels=(Level(float(np.log10(IK_TOLERANCE)), svg.GREY, "tolerance"),),
+        y_range=(-18.0, max(-6.0, float(decades.max()) + 1)),
+        width=720,
+        height=190,
+    )
+    drawing = Drawing("ik_error", chart.title, draw(chart))
+    table = Table(("inverse kinematics", "value", "unit"), rows)
+    return Section("Inverse kinematics", (Words(words), Figure((drawing,), columns=1), table))
+
+
+def _spare(slack: npt.NDArray[np.float64]) -> str:
+    """The least of it in millimetres; a leg without a driven knee has none."""
+    known = slack[np.isfinite(slack)]
+    return f"{1e3 * float(known.min()):.1f}" if len(known) else "-"
+
+
+def agreement(verdict: Check) -> Section:
+    """Four ways of forward kinematics, and the limits."""
+    rows = [
+        [
+            _WITNESSES.get(name, name),
+            f"{value:.1e}",
+            f"{FK_TOLERANCE:.0e}",
+            "ok" if value <= FK_TOLERANCE else "NOT OK",
+        ]
+        for name, value in verdict.fk.items()
+    ]
+    outside = {name: frames for name, (_, _, frames) in verdict.limits.items() if frames}
+    named = ", ".join(f"{name} ({frames} frames)" for name, frames in outside.items())
+    words = f"Outside the limits: {named}." if named else "No joint leaves its limits."
+    columns = ("forward kinematics against Pinocchio", "largest difference m, -", "accepted", "")
+    note = (
+        "Over the walk and 1000 random configurations; positions in metres and entries of rotation matrices."
+    )
+    return Section("Cross-checks", (Table(columns, rows), Words(note, "note"), Words(words)))

@@ -1,0 +1,95 @@
+"""Joint angles of each leg over its own gait cycle, for charts: mean, spread, or a labelled estimate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
+from exo_pin.errors import GaitError
+from exo_pin.gait import Gait, cycles
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Leg:
+    """One leg's angles over its own cycle, heel strike at 0 %.
+
+    Attributes:
+        side: Which leg.
+        percent: (m,) of the cycle; NaN parts two pieces of the curve.
+        q: (m, 6) angles in the order of `MOVEMENTS` [rad].
+        sd: (m, 6) standard deviation over the cycles [rad]; None for fewer than two.
+        stance: When the foot leaves the ground, in percent of the cycle; NaN if unknown.
+        note: How the curve was made.
+    """
+
+    side: str
+    percent: Array
+    q: Array
+    sd: Array | None
+    stance: float
+    note: str
+
+
+def legs(gait: Gait) -> tuple[Leg, ...]:
+    """Both legs, those that have a cycle or at least a heel strike to count from."""
+    return tuple(leg for leg in (_leg(gait, side) for side in SIDES) if leg is not None)
+
+
+def _leg(gait: Gait, side: str) -> Leg | None:
+    columns = [JOINTS.index(f"{side}_{movement}") for movement in MOVEMENTS]
+    try:
+        found = cycles(gait, side)
+    except GaitError:
+        return _estimated(gait, side, columns)
+    several = len(found) > 1 and not gait.periodic
+    whole = "one cycle" if len(found) == 1 else f"mean of {len(found)} cycles, band: 1 sd between them"
+    return Leg(
+        side,
+        found.percent,
+        found.mean[:, columns],
+        found.sd[:, columns] if several else None,
+        _stance(gait, side, float(found.duration.mean())),
+        f"{side}: {'one cycle of a periodic walk' if gait.periodic else whole}",
+    )
+
+
+def _estimated(gait: Gait, side: str, columns: list[int]) -> Leg | None:
+    """The whole recording, placed in the cycle by one heel strike and twice the step time."""
+    strikes = {s: [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", s)] for s in SIDES}
+    if not (strikes["left"] and strikes["right"]):
+        return None
+    stride = 2 * abs(strikes["left"][0] - strikes["right"][0])
+    share = (gait.time - strikes[side][0]) / stride
+    percent, q = 100 * (share - np.floor(share)), gait.q[:, columns]
+    breaks = np.flatnonzero(np.diff(percent) < 0) + 1
+    note = (
+        f"{side}: no whole cycle in the recording; placed by its heel strike at {strikes[side][0]:.3f} s "
+        f"and a stride of twice the step time, {stride:.3f} s"
+    )
+    return Leg(
+        side,
+        np.insert(percent, breaks, np.nan),
+        np.insert(q, breaks, np.nan, axis=0),
+        None,
+        _stance(gait, side, stride),
+        note,
+    )
+
+
+def _stance(gait: Gait, side: str, stride: float) -> float:
+    """Toe-off in percent of the stride: mean over the heel strikes that a toe-off follows."""
+    mine = [(e.time, e.kind) for e in gait.events if e.side == side]
+    if gait.periodic:
+        mine += [(t + gait.duration, kind) for t, kind in mine]
+    shares = [
+        (b - a) / stride
+        for (a, first), (b, second) in pairwise(mine)
+        if (first, second) == ("heel_strike", "toe_off")
+    ]
+    return 100 * float(np.mean(shares)) if shares else float("nan")

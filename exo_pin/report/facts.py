@@ -1,0 +1,124 @@
+"""Sections of a report that are tables of facts: body, device, contact, the walk's numbers, choices."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from exo_pin import __version__
+from exo_pin.anatomy.body import Leg
+from exo_pin.errors import DescriptionError, GaitError
+from exo_pin.gait import NORMAL, Gait, against_normal
+from exo_pin.gait.spatiotemporal import NORMAL_SOURCE
+from exo_pin.kinematics import spatiotemporal
+from exo_pin.report import panels
+from exo_pin.report.blocks import Block, Figure, Section, Table, Words
+from exo_pin.robot import Robot
+
+
+def body(robot: Robot) -> Section:
+    """Sizes and masses, left and right.
+
+    Raises:
+        DescriptionError: The robot was not made for a body.
+    """
+    b = robot.body
+    if b is None:
+        raise DescriptionError("a report needs a robot that load_robot made for a Body")
+    left, right = b.legs
+    legs = [
+        [name.replace("_", " "), f"{getattr(left, name):.3f}", f"{getattr(right, name):.3f}", _unit(name)]
+        for name in Leg._fields
+    ]
+    whole = [
+        ["stature", f"{b.stature:.3f}", "m"],
+        ["mass of the person", f"{b.mass:.1f}", "kg"],
+        ["segment masses after", b.sex, "-"],
+        ["hip joint centres apart", f"{b.hip_width:.3f}", "m"],
+        ["waist ring, inner width", f"{b.waist_width:.3f}", "m"],
+        ["mass of the device", f"{b.hardware_mass:.1f}", "kg"],
+        ["mass in the model", f"{b.total_mass:.1f} ({'with' if b.wearer else 'without'} wearer)", "kg"],
+    ]
+    note = (
+        "Lengths that were not given follow from the stature (Drillis and Contini 1966), masses and inertias "
+        "from de Leva 1996; ankle height, foot breadth, heel, ball and waist are design defaults."
+    )
+    tables: tuple[Block, ...] = (
+        Table(("body", "value", "unit"), whole),
+        Table(("leg", "left", "right", "unit"), legs),
+        Words(note, "note"),
+    )
+    return Section("Body", tables)
+
+
+def _unit(name: str) -> str:
+    return "kg" if name.endswith("mass") else "m"
+
+
+def device(robot: Robot) -> Section:
+    """What the device is and drives, and where its numbers come from."""
+    made = robot.device
+    rows = [["name", robot.name], ["driven joints", str(len(robot.joints))]]
+    rows.append(["hip axes, from the pelvis outwards", robot.hip_order])
+    if made is not None:
+        rows += [["title", made.title or made.name], ["source", made.source]]
+        rows += [["locked joints", ", ".join(made.locked) or "none"]]
+        rows += [["remark", remark] for remark in made.remarks]
+    return Section("Device", (Table(("device", ""), rows, prose=True),))
+
+
+def contact(gait: Gait) -> Section:
+    """Timeline and table of the events."""
+    if not gait.events:
+        return Section("Feet on the ground", (Words("No events: contact is unknown."),))
+    before = [None, *(event.time for event in gait.events)]
+    rows = [
+        [
+            f"{event.side} {event.kind.replace('_', ' ')}",
+            f"{event.time:.3f}",
+            "-" if last is None else f"{event.time - last:.3f}",
+            event.source or "not stated",
+        ]
+        for event, last in zip(gait.events, before, strict=False)
+    ]
+    figure = Figure((panels.contact_timeline(gait),), "Bars: from heel strike to toe-off.", columns=1)
+    return Section(
+        "Feet on the ground", (figure, Table(("event", "time s", "since the one before s", "source"), rows))
+    )
+
+
+def numbers(robot: Robot, gait: Gait) -> Section:
+    """Cadence, speed, lengths, phases, against the usual ranges of adults."""
+    title = "Spatiotemporal numbers"
+    try:
+        found = spatiotemporal(robot, gait)
+    except GaitError as error:
+        return Section(title, (Words(f"None: {error}."),))
+    verdicts = against_normal(found)
+    rows = []
+    for name, number in found.items():
+        usual = NORMAL.get(name.removeprefix("left_").removeprefix("right_"))
+        span = "-" if usual is None else f"{usual.low:g} .. {usual.high:g}"
+        sd = "-" if math.isnan(number.sd) else f"{number.sd:.3f}"
+        shown = f"{number.mean:.3f}" if number.unit in ("m", "s", "m/s") else f"{number.mean:.1f}"
+        row = [name.replace("_", " "), shown, sd, str(number.n), number.unit, span, verdicts.get(name, "-")]
+        rows.append(row)
+    columns = ("number", "mean", "sd", "n", "unit", "usual", "this walk")
+    note = f"Usual: {NORMAL_SOURCE}. Lengths are those of this body's legs."
+    return Section(title, (Table(columns, rows), Words(note, "note")))
+
+
+def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: str | None) -> Section:
+    """Everything that somebody chose, so that the report can be made again."""
+    sources = sorted({event.source or "not stated" for event in gait.events})
+    rows = [
+        ["source of the walk", gait.source or "not stated"],
+        ["events", ", ".join(sources) or "none"],
+        ["pelvis", "moves as the walk says" if gait.base is not None else "held still"],
+        ["velocities and accelerations", rates],
+        ["normative band", "none" if normal is None else f"Schwartz 2008, {normal}, 1 standard deviation"],
+        ["hip angles", f"{robot.hip_order} order of axes; curves in the clinical order"],
+        *([name, words] for name, words in chosen.items()),
+        ["made with", f"exo_pin {__version__}"],
+    ]
+    return Section("Choices", (Table(("choice", ""), rows, prose=True),))

@@ -1,0 +1,62 @@
+"""Joint velocities and accelerations for the report, and how they were made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin import signals
+from exo_pin.errors import GaitError
+from exo_pin.gait import Gait, curves
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Rates of a robot's joints.
+
+    Attributes:
+        dq: `(n, J)` [rad/s].
+        ddq: `(n, J)` [rad/s^2].
+        how: Derivative and filter, in words.
+    """
+
+    dq: Array
+    ddq: Array
+    how: str
+
+
+def motion(robot: Robot, gait: Gait, cutoff: float | None) -> Motion:
+    """Rates of the joints in the robot's own order and hip convention.
+
+    Args:
+        robot: The robot.
+        gait: The walk.
+        cutoff: Low-pass before differentiating a recording [Hz]; None: none.
+    """
+    q = robot.angles(robot.from_gait(gait))
+    if gait.periodic:
+        how = "Derivatives of the walk's Fourier series; not filtered."
+        return _rates(gait, q, gait.duration, how)
+    q, how = _smooth(gait, q, cutoff)
+    return _rates(gait, q, None, f"{how} Second-order differences.")
+
+
+def _rates(gait: Gait, q: Array, period: float | None, how: str) -> Motion:
+    dq, ddq = (curves.derivative(gait.time, q, order, period) for order in (1, 2))
+    return Motion(dq, ddq, how)
+
+
+def _smooth(gait: Gait, q: Array, cutoff: float | None) -> tuple[Array, str]:
+    if cutoff is None:
+        return q, "Angles not filtered: accelerations carry the recording's noise."
+    try:
+        smooth = signals.lowpass(gait.time, q, cutoff=cutoff)
+    except GaitError as error:
+        return q, f"Angles not filtered, for the filter refused them ({error})."
+    words = f"Angles low-pass filtered first (Butterworth, order {signals.ORDER}, zero lag, {cutoff:g} Hz)."
+    return smooth, words

@@ -1,0 +1,98 @@
+"""A document as one self-contained HTML page that loads nothing, and reads well on paper and on a phone."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from html import escape
+from importlib import resources
+from typing import Any
+
+from exo_pin.report.blocks import Block, Document, Figure, Player, Section, Table, Tiles, Words
+
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "media-src blob:; frame-src 'self'; connect-src 'none'; base-uri 'none'; form-action 'none'"
+)
+"""Nothing is loaded from elsewhere; scripts are the embedded player's, which lives by this policy too."""
+
+
+def html(document: Document) -> str:
+    """The whole page; every name and number in it is escaped.
+
+    Args:
+        document: What to show.
+    """
+    title = escape(document.title)
+    body = "\n".join(map(_section, document.sections))
+    style = (resources.files("exo_pin.report") / "page.css").read_text("utf-8")
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(POLICY)}">\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f'<link rel="icon" href="data:,">\n<title>{title}</title>\n<style>{style}</style></head>\n'
+        f'<body>\n<h1>{title}</h1>\n<p class="under">{escape(document.subtitle)}</p>\n'
+        f"{body}\n</body></html>\n"
+    )
+
+
+def _section(section: Section) -> str:
+    parts = [f"<section><h2>{escape(section.title)}</h2>"]
+    parts += [_BLOCKS[type(block)](block) for block in section.blocks]
+    return "\n".join([*parts, "</section>"])
+
+
+def _words(block: Words) -> str:
+    kind = f' class="{block.kind}"' if block.kind else ""
+    return f"<p{kind}>{escape(block.text)}</p>"
+
+
+def _table(block: Table) -> str:
+    head = "".join(f'<th scope="col">{escape(name)}</th>' for name in block.columns)
+    rows = "\n".join(
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in block.rows
+    )
+    caption = f"<caption>{escape(block.caption)}</caption>" if block.caption else ""
+    kind = ' class="prose"' if block.prose else ""
+    return (
+        f'<div class="wide"><table{kind}>{caption}<thead><tr>{head}</tr></thead>\n'
+        f"<tbody>{rows}</tbody></table></div>"
+    )
+
+
+def _figure(block: Figure) -> str:
+    pictures = []
+    for drawing in block.drawings:
+        data = base64.b64encode(drawing.png).decode()
+        image = f'<img alt="{escape(drawing.title)}" src="data:image/png;base64,{data}">'
+        pictures.append(f"<div>{drawing.svg or image}</div>")
+    caption = f"<figcaption>{escape(block.caption)}</figcaption>" if block.caption else ""
+    grid = "\n".join(pictures)
+    return f'<figure><div class="grid" style="--columns: {block.columns}">{grid}</div>{caption}</figure>'
+
+
+def _tiles(block: Tiles) -> str:
+    looks = {True: "tile good", False: "tile bad", None: "tile"}
+    tiles = [
+        f'<div class="{looks[good]}"><b>{escape(value)}</b><span>{escape(what)}</span></div>'
+        for what, value, good in block.items
+    ]
+    return f'<div class="tiles">{"".join(tiles)}</div>'
+
+
+def _player(block: Player) -> str:
+    """The player may run its own scripts and save pictures, but it is cut off from this page."""
+    return (
+        f'<iframe title="{escape(block.title)}" sandbox="allow-scripts allow-downloads" loading="eager" '
+        f'srcdoc="{escape(block.html)}"></iframe>\n'
+        '<p class="paper note">The player is in the file, not on paper.</p>'
+    )
+
+
+_BLOCKS: dict[type[Block], Callable[[Any], str]] = {
+    Words: _words,
+    Table: _table,
+    Figure: _figure,
+    Tiles: _tiles,
+    Player: _player,
+}

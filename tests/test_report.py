@@ -1,0 +1,370 @@
+"""Reports and reproduced figures: complete, equal to what other rooms compute, escaped, self-contained."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from html import unescape
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from exo_pin import cli, crosscheck, ik, report
+from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin.errors import DescriptionError
+from exo_pin.gait import Event, Gait, normative_gait, normative_sd
+from exo_pin.kinematics import center_of_mass, spatiotemporal
+from exo_pin.report import blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.robot import load_robot, load_urdf
+
+EVIL = '<script>alert("x")</script>&'
+VOID = {"meta", "link", "img", "br", "input"}
+PRINTED = 5e-2  # [deg] tables show one decimal
+FOURIER = 1e-9  # [rad] interpolation of a band-limited curve at its own samples
+EVEN = 0.35  # how far a gait's rms error with 3 mm noise may lie from three times that with 1 mm, as a share
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return load_robot()
+
+
+@pytest.fixture(scope="module")
+def gait():
+    return normative_gait()
+
+
+@pytest.fixture(scope="module")
+def recording(gait):
+    """Two and a half cycles that do not repeat, with the events of each."""
+    walk = gait.repeated(3)
+    keep = walk.time <= 2.5 * gait.duration
+    events = [event for event in walk.events if event.time <= walk.time[keep][-1]]
+    return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="repeated")
+
+
+@pytest.fixture(scope="module")
+def document(robot, gait):
+    about = report.About(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
+    return report.walk(robot, gait, about=about, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")
+
+
+@pytest.fixture(scope="module")
+def page(document):
+    return report.html(document)
+
+
+@pytest.fixture(scope="module")
+def paper(robot, gait, recording):
+    return report.reproduction(robot, gait, recording=recording, recording_name=EVIL, when="today")
+
+
+class Reader(HTMLParser):
+    """Collects elements, checks that they nest."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.seen = [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def section(document, title):
+    return next(s for s in document.sections if s.title == title)
+
+
+def table(document, title, number=0):
+    tables = [b for b in section(document, title).blocks if isinstance(b, blocks.Table)]
+    return {row[0]: list(row[1:]) for row in tables[number].rows}
+
+
+def elements(drawing, name):
+    return list(ElementTree.fromstring(drawing).iter(f"{{http://www.w3.org/2000/svg}}{name}"))
+
+
+def test_the_report_has_every_section(document):
+    assert [s.title for s in document.sections] == [
+        "Summary",
+        "Body",
+        "Device",
+        "The walk",
+        "Joint angles over the gait cycle",
+        "Ranges and limit margins",
+        "Velocities and accelerations",
+        "Paths of the feet",
+        "Centre of mass",
+        "Feet on the ground",
+        "Spatiotemporal numbers",
+        "Inverse kinematics",
+        "Cross-checks",
+        "Choices",
+    ]
+
+
+def test_ranges_are_those_of_the_cross_check(document, robot, gait):
+    rows = table(document, "Ranges and limit margins")
+    assert tuple(rows) == JOINTS
+    for k, (joint, (low, high, frames)) in enumerate(crosscheck.limits(robot, gait).items()):
+        *numbers, outside = rows[joint]
+        lower, upper = robot.lower[k], robot.upper[k]
+        expected = np.degrees([low, high, high - low, lower, upper, min(low - lower, upper - high)])
+        np.testing.assert_allclose([float(x) for x in numbers], expected, atol=PRINTED)
+        assert outside == (str(frames) if frames else "-")
+
+
+def test_rates_are_the_gaits_own_derivatives(document, robot, gait):
+    rows = table(document, "Velocities and accelerations")
+    for k, joint in enumerate(JOINTS):
+        speed, degrees, has, used, change, effort = (float(x) for x in rows[joint])
+        peak = np.abs(gait.dq[:, k]).max()
+        assert speed == pytest.approx(peak, abs=5e-3)
+        assert degrees == pytest.approx(np.degrees(peak), abs=0.5)
+        assert (has, effort) == (robot.velocity[k], robot.effort[k])
+        assert used == pytest.approx(100 * peak / robot.velocity[k], abs=0.5)
+        assert change == pytest.approx(np.abs(gait.ddq[:, k]).max(), abs=PRINTED)
+
+
+def test_residuals_and_witnesses_are_those_of_the_cross_check(document, robot, gait):
+    verdict = crosscheck.check(robot, gait)
+    facts = verdict.facts()["ik"]
+    rows = table(document, "Inverse kinematics")
+    assert rows["frames"][0] == str(len(gait))
+    assert rows["frames whose feet were reached"][0] == str(facts["converged"])
+    assert rows["largest position error, within limits"] == [f"{facts['max_position_error_m']:.1e}", "m"]
+    differences = [row[0] for row in table(document, "Cross-checks").values()]
+    assert differences == [f"{value:.1e}" for value in verdict.fk.values()]
+
+
+def test_spatiotemporal_numbers_are_those_of_the_kinematics(document, robot, gait):
+    rows = table(document, "Spatiotemporal numbers")
+    found = spatiotemporal(robot, gait)
+    assert set(rows) == {name.replace("_", " ") for name in found}
+    assert float(rows["speed"][0]) == pytest.approx(found["speed"].mean, abs=5e-4)
+    assert all(row[3] == found[name.replace(" ", "_")].unit for name, row in rows.items())
+
+
+def test_the_centre_of_mass_is_that_of_the_kinematics(document, robot, gait):
+    position = center_of_mass(robot, robot.from_gait(gait), base=gait.base).position
+    for k, (mean, excursion) in enumerate(table(document, "Centre of mass").values()):
+        assert float(mean) == pytest.approx(position[:, k].mean(), abs=5e-4)
+        assert float(excursion) == pytest.approx(1e3 * np.ptp(position[:, k]), abs=PRINTED)
+
+
+def test_every_name_is_text_and_never_markup(page, document):
+    seen = Reader(page).seen
+    assert [tag for tag, _ in seen if tag == "script"] == []
+    assert EVIL not in page
+    assert page.count("&lt;script&gt;") >= 4
+    assert "<script>" not in report.markdown(document)
+
+
+def test_the_player_is_embedded_whole_and_fenced_off(page):
+    (frame,) = [attributes for tag, attributes in Reader(page).seen if tag == "iframe"]
+    assert frame["srcdoc"] == f"<!DOCTYPE html><p title='{EVIL}'>player</p>"
+    assert "allow-same-origin" not in frame["sandbox"]
+
+
+def test_nothing_is_loaded_from_elsewhere(page, paper):
+    for text in (page, report.html(paper)):
+        reader = Reader(text)
+        assert reader.open == []
+        policy = next(
+            a["content"] for _, a in reader.seen if a.get("http-equiv") == "Content-Security-Policy"
+        )
+        assert "default-src 'none'" in policy
+        assert not re.search(r"https?:", policy)
+        for _, attributes in reader.seen:
+            for name in ("src", "href", "xlink:href", "action"):
+                assert attributes.get(name, "data:").startswith("data:")
+        assert "url(http" not in text
+        assert "@import" not in text
+
+
+def test_equal_input_gives_equal_bytes(robot, gait, paper, recording):
+    again = report.reproduction(robot, gait, recording=recording, recording_name=EVIL, when="today")
+    assert report.html(again) == report.html(paper)
+    assert report.markdown(again) == report.markdown(paper)
+
+
+def test_every_drawing_is_well_formed_and_has_a_name_of_its_own(document, paper):
+    for drawings in (document.drawings, paper.drawings):
+        assert len({d.file for d in drawings}) == len(drawings)
+        for drawing in drawings:
+            root = ElementTree.fromstring(drawing.svg)
+            assert root.tag == "{http://www.w3.org/2000/svg}svg"
+            assert "nan" not in drawing.svg
+            assert "inf" not in re.sub(r"[a-z]*inf[a-z]+|[a-z]+inf", "", drawing.svg)
+
+
+def test_a_recording_without_events_says_so_and_still_gives_a_report(robot, recording):
+    document = report.walk(robot, replace(recording, events=()), normal=None)
+    text = unescape(report.html(document))
+    assert "No events: contact is unknown." in text
+    assert "no heel strikes" in text
+    assert "Butterworth, order 4, zero lag, 6 Hz" in text
+
+
+def test_the_filter_is_stated_when_it_is_off_or_refuses(robot, recording):
+    assert "not filtered" in report.html(report.walk(robot, recording, cutoff=None))
+    uneven = replace(recording, time=recording.time + 0.004 * np.sin(40 * recording.time), events=())
+    assert "the filter refused" in report.html(report.walk(robot, uneven))
+
+
+def test_a_device_with_locked_joints_and_slides_has_a_report():
+    robot = load_robot(device="lopes8")
+    document = report.walk(robot, normative_gait())
+    assert set(table(document, "Ranges and limit margins")) == set(robot.joints) & set(JOINTS)
+
+
+def test_a_robot_without_a_body_is_refused(robot, gait):
+    with pytest.raises(DescriptionError, match="load_robot"):
+        report.walk(load_urdf(robot.urdf), gait)
+
+
+def test_legs_of_a_normal_walk_are_its_curves(gait):
+    left, right = cycle.legs(gait)
+    np.testing.assert_allclose(left.q[:-1], gait.q[:, :6], atol=FOURIER)
+    np.testing.assert_allclose(right.q[:-1], np.roll(gait.q[:, 6:], -50, axis=0), atol=FOURIER)
+    assert left.stance == pytest.approx(59.0)
+
+
+def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(recording):
+    left, _ = cycle.legs(recording)
+    assert left.sd is not None
+    assert left.sd.max() < 1e-3  # the cycles are copies; resampling differs a little
+    keep = recording.time < 0.6 * recording.time[-1] / 2.5
+    step = replace(
+        recording,
+        time=recording.time[keep],
+        q=recording.q[keep],
+        base=recording.base[keep],
+        events=[e for e in recording.events if e.time <= recording.time[keep][-1]],
+    )
+    estimated = cycle.legs(step)
+    assert all("no whole cycle" in leg.note for leg in estimated)
+    T = 2 * (step.events[2].time - step.events[0].time)
+    np.testing.assert_allclose(np.nanmax(estimated[0].percent), 100 * step.time[-1] / T)
+
+
+def test_stance_is_closed_at_the_ends_of_a_recording_and_around_a_cycle(gait):
+    assert panels.stance_intervals(gait, "left") == [(0.0, pytest.approx(0.59 * gait.duration))]
+    (first, second) = panels.stance_intervals(gait, "right")
+    assert first[0] == 0.0
+    assert second[1] == pytest.approx(gait.duration)
+    events = [Event(0.3, "toe_off", "left"), Event(0.7, "heel_strike", "left")]
+    walk = Gait(np.linspace(0, 1, 20), np.zeros((20, 12)), events=events)
+    assert panels.stance_intervals(walk, "left") == [(0.0, 0.3), (0.7, 1.0)]
+    assert panels.stance_intervals(walk, "right") == []
+
+
+def test_the_band_is_the_normal_walk_and_its_spread():
+    percent, mean, sd = panels.normal("slow", 3)
+    assert percent[[0, -1]].tolist() == [0, 100]
+    np.testing.assert_allclose(np.radians(mean[:-1]), normative_gait("slow").q[:, 3])
+    np.testing.assert_allclose(np.radians(sd[:-1]), normative_sd("slow")[:, 3])
+
+
+def test_a_curve_is_drawn_where_its_numbers_are():
+    curve = chart.Curve([0, 10], [0, 5], "#123456")
+    drawing = chart.draw(chart.Chart(title="t", curves=(curve,), x_range=(0, 10), y_range=(0, 10)))
+    (path,) = [e for e in elements(drawing, "path") if e.get("stroke") == "#123456"]
+    points = np.array(re.findall(r"[ML]([\d.]+) ([\d.]+)", path.get("d")), dtype=float)
+    area = next(e for e in elements(drawing, "rect"))
+    x, y, width, height = (float(area.get(name)) for name in ("x", "y", "width", "height"))
+    np.testing.assert_allclose(points, [[x, y + height], [x + width, y + height / 2]], atol=0.01)
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 1), (-7.3, 61.2), (1e-9, 3e-9), (-2e5, 9e5)])
+def test_ticks_are_round_and_within(low, high):
+    found = np.array(chart.ticks(low, high))
+    assert 3 <= len(found) <= 10
+    assert low - 1e-9 * abs(low) <= found.min() <= found.max() <= high * (1 + 1e-9)
+    step = np.diff(found)
+    np.testing.assert_allclose(step, step[0])
+    mantissa = step[0] / 10 ** np.floor(np.log10(step[0]) + 1e-9)
+    assert np.isclose(mantissa, [1, 2, 5]).any()
+
+
+def test_gaps_of_a_line_stay_gaps_and_numbers_are_short():
+    assert svg.path([[0, 0], [1, 1], [np.nan, 0], [2, 2]]) == "M0 0L1 1M2 2"
+    assert [svg.number(x) for x in (-0.001, 1 / 3, 100.0)] == ["0", "0.33", "100"]
+    assert svg.text(0, 0, EVIL).count("<") == 2
+
+
+def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
+    frames = skeleton.joint_frames(robot)
+    assert [name for name, _, _ in frames] == ["body", *JOINTS]
+    assert skeleton.frames_parallel(robot) < 1e-15
+    axes = {name: axis for name, _, axis in frames[1:]}
+    for movement, mirrored in zip(MOVEMENTS, (1, -1, -1, 1, 1, -1), strict=True):
+        np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
+
+
+def test_the_loops_error_falls_to_the_tolerance(robot, gait):
+    errors = loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
+    assert errors[-1] <= 1e-9 < errors[-2]
+    assert errors[0] > 0.1
+
+
+def test_own_feet_are_exact_and_noise_grows_with_its_size(robot, gait):
+    own = noise.exact(robot, gait, "own", ik.Dls())
+    assert max(own.largest().values()) < 1e-6
+    one, three = (noise.noisy(robot, gait, sd) for sd in (1e-3, 3e-3))
+    for movement in ("hip_adduction", "hip_rotation"):  # far from singular: errors are linear in the noise
+        ratio = three.rms()[movement] / one.rms()[movement]
+        assert ratio == pytest.approx(3, rel=EVEN)
+    calm = noise.noisy(robot, gait, 3e-3, damping=noise.CALM)
+    assert calm.rms()["knee_flexion"] < three.rms()["knee_flexion"]
+
+
+def test_the_page_of_the_paper_says_what_is_computed(paper, robot, gait):
+    assert [s.title.split(":")[0] for s in paper.sections[1:]] == [f"Fig. {k}" for k in range(1, 7)]
+    rows = table(paper, "Fig. 6: recovered against given joint curves")
+    answer = noise.noisy(robot, gait, 1e-3)
+    shown = rows["feet with 1 mm noise"]
+    assert float(shown[3]) == pytest.approx(np.degrees(answer.rms()["knee_flexion"]), abs=5e-3)
+    assert shown[8] == f"{int(answer.track.converged.sum())} of {len(gait)}"
+    text = unescape(report.html(paper))
+    assert "no browser rendered the model in this run" in text
+    assert "could not be found" in text
+
+
+def test_markdown_names_the_files_of_all_drawings(paper):
+    text = report.markdown(paper)
+    for drawing in paper.drawings:
+        assert f"({drawing.file})" in text
+
+
+def test_the_commands_write_their_pages(tmp_path, capsys):
+    folder = tmp_path / "figures"
+    assert cli.main(["reproduce", "-o", str(folder), "--no-render"]) == 0
+    names = {path.name for path in folder.iterdir()}
+    assert {"reproduction.html", "reproduction.md", "fig1_frames.svg", "fig5_poses.svg"} <= names
+    for file in re.findall(r"\]\((\S+)\)", (folder / "reproduction.md").read_text()):
+        assert file in names
+    page = tmp_path / "r.html"
+    assert cli.main(["report", "slow", "--who", EVIL, "--no-player", "-o", str(page)]) == 0
+    assert "Gait report: slow" in page.read_text()
+    assert EVIL not in page.read_text()
+
+
+def test_bad_requests_are_refused(tmp_path, capsys):
+    assert cli.main(["report", "-o", str(tmp_path / "r.pdf")]) == 2
+    assert cli.main(["report", "--filter", "nan", "-o", str(tmp_path / "r.html")]) == 2
+    (tmp_path / "file").write_text("")
+    assert cli.main(["reproduce", "--no-render", "-o", str(tmp_path / "file")]) == 2
+    assert not list(tmp_path.glob("r.*"))
+    assert "exo-pin: " in capsys.readouterr().err
