@@ -55,8 +55,8 @@ def inverse(gait: Gait, verdict: Check) -> Section:
         ),
         levels=(Level(float(np.log10(IK_TOLERANCE)), svg.GREY, "tolerance"),),
         y_range=(-18.0, max(-6.0, float(decades.max()) + 1)),
-        width=720,
-        height=190,
+        width=900,
+        height=200,
     )
     drawing = Drawing("ik_error", chart.title, draw(chart))
     table = Table(("inverse kinematics", "value", "unit"), rows)
@@ -83,7 +83,7 @@ def agreement(verdict: Check) -> Section:
     outside = {name: frames for name, (_, _, frames) in verdict.limits.items() if frames}
     named = ", ".join(f"{name} ({frames} frames)" for name, frames in outside.items())
     words = f"Outside the limits: {named}." if named else "No joint leaves its limits."
-    columns = ("forward kinematics against Pinocchio", "largest difference m, -", "accepted", "")
+    columns = ("forward kinematics against Pinocchio", "largest difference", "accepted", "")
     note = (
         "Over the walk and 1000 random configurations; positions in metres and entries of rotation matrices."
     )

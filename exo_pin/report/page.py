@@ -68,7 +68,8 @@ def _figure(block: Figure) -> str:
         pictures.append(f"<div>{drawing.svg or image}</div>")
     caption = f"<figcaption>{escape(block.caption)}</figcaption>" if block.caption else ""
     grid = "\n".join(pictures)
-    return f'<figure><div class="grid" style="--columns: {block.columns}">{grid}</div>{caption}</figure>'
+    kind = "grid full" if block.columns == 1 else "grid"
+    return f'<figure><div class="{kind}" style="--columns: {block.columns}">{grid}</div>{caption}</figure>'
 
 
 def _tiles(block: Tiles) -> str:

@@ -186,14 +186,14 @@ def foot_paths(gait: Gait, corners: Array) -> tuple[Drawing, ...]:
             title="From the side: height over forward [cm]",
             x_label="forward [cm]",
             curves=tuple(side),
-            width=520,
+            width=420,
         ),
         Chart(
             title="Height of heel and ball [cm]",
             x_label="time [s]",
             curves=tuple(height),
             spans=stances(gait),
-            width=520,
+            width=420,
         ),
     )
     return tuple(Drawing(f"foot_{k}", chart.title, draw(chart)) for k, chart in enumerate(charts))
@@ -201,7 +201,7 @@ def foot_paths(gait: Gait, corners: Array) -> tuple[Drawing, ...]:
 
 def contact_timeline(gait: Gait) -> Drawing:
     """Which foot is on the ground when, with the events."""
-    width, start, end = 720.0, float(gait.time[0]), float(gait.time[0]) + gait.duration
+    width, start, end = 900.0, float(gait.time[0]), float(gait.time[0]) + gait.duration
 
     def at(t: float) -> float:
         return 60 + (width - 80) * (t - start) / (end - start)
@@ -231,7 +231,7 @@ def range_bars(rows: Sequence[tuple[str, float, float, float, float]]) -> Drawin
     Args:
         rows: Joint, smallest and largest angle, lower and upper limit [deg].
     """
-    width, left = 720.0, 150.0
+    width, left = 900.0, 160.0
     low, high = min(r[3] for r in rows) - 5, max(r[4] for r in rows) + 5
     low, high = min(low, *(r[1] for r in rows)), max(high, *(r[2] for r in rows))
     scale = (width - left - 16) / (high - low)

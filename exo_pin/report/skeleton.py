@@ -95,7 +95,7 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
         x_range=(low - 12, high + 12),
         y_range=(-8, top + 10),
         equal=True,
-        width=760,
+        width=900,
     )
     note = f"{how} Each pose stands on its lowest sole corner (the support carries the pelvis)."
     return Drawing("fig5_poses", chart.title, draw(chart)), note
