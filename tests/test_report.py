@@ -17,6 +17,7 @@ from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, normative_gait, normative_sd
 from exo_pin.kinematics import center_of_mass, spatiotemporal
 from exo_pin.report import blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.report.motion import motion
 from exo_pin.robot import load_robot, load_urdf
 
 EVIL = '<script>alert("x")</script>&'
@@ -219,8 +220,16 @@ def test_a_recording_without_events_says_so_and_still_gives_a_report(robot, reco
 
 def test_the_filter_is_stated_when_it_is_off_or_refuses(robot, recording):
     assert "not filtered" in report.html(report.walk(robot, recording, cutoff=None))
-    uneven = replace(recording, time=recording.time + 0.004 * np.sin(40 * recording.time), events=())
-    assert "the filter refused" in report.html(report.walk(robot, uneven))
+    assert "the filter refused" in report.html(report.walk(robot, recording, cutoff=500.0))
+
+
+def test_rounded_times_do_not_keep_the_filter_from_its_work(robot, recording):
+    times = recording.time, np.round(recording.time, 3)
+    even, rounded = (motion(robot, replace(recording, time=t, events=()), 6.0) for t in times)
+    assert "on an even grid" in rounded.how
+    assert "on an even grid" not in even.how
+    np.testing.assert_allclose(rounded.dq, even.dq, atol=0.2)
+    assert np.abs(rounded.ddq).max() < 1.3 * np.abs(even.ddq).max()
 
 
 def test_a_device_with_locked_joints_and_slides_has_a_report():
@@ -359,6 +368,24 @@ def test_the_commands_write_their_pages(tmp_path, capsys):
     assert cli.main(["report", "slow", "--who", EVIL, "--no-player", "-o", str(page)]) == 0
     assert "Gait report: slow" in page.read_text()
     assert EVIL not in page.read_text()
+
+
+def test_without_a_browser_the_model_is_a_line_drawing_and_that_is_said(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("EXO_PIN_CHROMIUM", raising=False)
+    assert cli.main(["reproduce", "-o", str(tmp_path)]) == 0
+    assert "no Chromium found" in capsys.readouterr().err
+    assert (tmp_path / "fig3_model.svg").exists()
+    assert "no browser rendered the model in this run" in (tmp_path / "reproduction.md").read_text()
+
+
+def test_rendered_pictures_are_inside_the_page_and_files_beside_it(robot, gait):
+    document = report.reproduction(robot, gait, rendered=report.Rendered(model=b"one", poses=b"two"))
+    files = {d.file: d.data for d in document.drawings}
+    assert (files["fig3_model.png"], files["fig5_rendered.png"]) == (b"one", b"two")
+    text = report.html(document)
+    assert 'src="data:image/png;base64,b25l"' in text
+    assert "no browser" not in text
 
 
 def test_bad_requests_are_refused(tmp_path, capsys):

@@ -10,7 +10,7 @@ Rows = Sequence[Sequence[str]]
 
 @dataclass(frozen=True)
 class Words:
-    """A paragraph; `kind` is `"note"` for small print."""
+    """A paragraph; `kind` is `"note"` for small print, `"note screen"` for what paper does not need."""
 
     text: str
     kind: str = ""

@@ -14,6 +14,8 @@ from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
 
+_EXACT = 1e-9  # [s] off an even grid: rounding
+
 
 @dataclass(frozen=True, eq=False)
 class Motion:
@@ -52,11 +54,17 @@ def _rates(gait: Gait, q: Array, period: float | None, how: str) -> Motion:
 
 
 def _smooth(gait: Gait, q: Array, cutoff: float | None) -> tuple[Array, str]:
+    """Filtered angles; those on an uneven grid (rounded times in files) are brought to an even one first."""
     if cutoff is None:
         return q, "Angles not filtered: accelerations carry the recording's noise."
+    even = np.linspace(gait.time[0], gait.time[-1], len(gait))
+    off = float(np.abs(gait.time - even).max())
     try:
-        smooth = signals.lowpass(gait.time, q, cutoff=cutoff)
+        smooth = signals.lowpass(even, curves.resampled(gait.time, q, even, periodic=False), cutoff=cutoff)
     except GaitError as error:
         return q, f"Angles not filtered, for the filter refused them ({error})."
-    words = f"Angles low-pass filtered first (Butterworth, order {signals.ORDER}, zero lag, {cutoff:g} Hz)."
-    return smooth, words
+    words = f"Angles low-pass filtered first (Butterworth, order {signals.ORDER}, zero lag, {cutoff:g} Hz)"
+    if off < _EXACT:
+        return smooth, f"{words}."
+    back = curves.resampled(even, smooth, gait.time, periodic=False)
+    return back, f"{words}, on an even grid, from which the samples lie up to {1e3 * off:.2g} ms."

@@ -101,7 +101,7 @@ def _summary(gait: Gait, about: About, verdict: crosscheck.Check) -> Section:
 
 def _played(player: str, title: str) -> Section:
     words = "Drag to turn, space to play; it works without a network."
-    return Section("The walk", (Player(player, f"Player: {title}"), Words(words, "note")))
+    return Section("The walk", (Player(player, f"Player: {title}"), Words(words, "note screen")))
 
 
 def _curves(robot: Robot, gait: Gait, normal: str | None) -> Section:
