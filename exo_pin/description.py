@@ -29,6 +29,17 @@ _SIZES = [
 _STRUCTURE = ("hip_order", "locked", "slides", "toes")
 
 
+_BOUNDS = {
+    "_effort": (1e-3, 1e4),  # [N m]
+    "_velocity": (1e-3, 1e3),  # [rad/s]
+    "_lower": (-math.pi, math.pi),  # [rad]: degrees are noticed
+    "_upper": (-math.pi, math.pi),
+    "_link_mass": (1e-6, 500.0),  # [kg]
+    "_com": (-2.0, 2.0),  # [m] from the link's joint
+}
+"""What a single argument can be, by the end of its name."""
+
+
 def sources() -> Path:
     """The folder of the xacro sources: inside the installed package, or beside it in a checkout."""
     package = Path(__file__).resolve().parent
@@ -65,6 +76,7 @@ def arguments(
         if name not in values:
             raise UnknownNameError("argument", name, values)
         values[name] = _plausible(name, value, like=values[name])
+    _check_limits(values, overrides)
     _check_inertias(values)
     return values
 
@@ -158,11 +170,19 @@ def _plausible(name: str, text: str, *, like: str) -> str:
         raise DescriptionError(f"{name}:={text} must be {len(like.split())} finite number(s)")
     if name in SIZES:
         checked(name, numbers[0])
-    if name.endswith(("_effort", "_velocity")) and numbers[0] <= 0:
-        raise DescriptionError(f"{name}:={text} must be positive")
-    if name.endswith(("_lower", "_upper")) and abs(numbers[0]) > math.pi:
-        raise DescriptionError(f"{name}:={text} is more than half a turn; radians are expected")
+    for ending, (low, high) in _BOUNDS.items():
+        if name.endswith(ending) and not all(low <= number <= high for number in numbers):
+            raise DescriptionError(f"{name}:={text} is not plausible; {low:g} .. {high:g} is accepted")
     return " ".join(map(_text, numbers))
+
+
+def _check_limits(values: Mapping[str, str], given: Mapping[str, str]) -> None:
+    """Limits that were given singly must still be a range."""
+    for name in given:
+        joint, _, end = name.rpartition("_")
+        if end in ("lower", "upper") and float(values[f"{joint}_lower"]) >= float(values[f"{joint}_upper"]):
+            lower, upper = values[f"{joint}_lower"], values[f"{joint}_upper"]
+            raise DescriptionError(f"{name}:={values[name]}: {joint} would range from {lower} to {upper} rad")
 
 
 def _check_inertias(values: Mapping[str, str]) -> None:

@@ -70,6 +70,10 @@ def test_a_thigh_weighs_at_its_table_place_when_the_hardware_is_light():
     assert centre[2] == pytest.approx(-0.4095 * body.left_thigh, rel=1e-3)  # 10 g of 9.9 kg
 
 
+def test_numbers_of_numpy_are_numbers():
+    assert Body.from_stature(np.float32(1.5), mass=np.int64(60)).mass == 60.0
+
+
 def test_a_name_without_side_sets_both_legs_and_a_side_wins():
     body = Body.from_stature(thigh=0.40, left_thigh=0.41)
     assert (body.left_thigh, body.right_thigh) == (0.41, 0.40)
@@ -87,6 +91,9 @@ def test_a_name_without_side_sets_both_legs_and_a_side_wins():
         ({"heel": 0.2, "ball": 0.2}, "foot_length"),
         ({"thigh_mass": 40.0}, "leave nothing"),
         ({"wearer": "yes"}, "true or false"),
+        ({"thigh": 0.6, "shank": 0.7}, "does not go with stature"),
+        ({"limits": 3}, "limits is 3"),
+        ({"limits": {"left_knee_flexion": 3}}, "a pair"),
         ({"limits": {"left_knee_flexion": (1.0, 0.5)}}, "lower < upper"),
     ],
 )
@@ -133,6 +140,8 @@ def test_a_short_body_file_is_completed_from_the_stature(tmp_path):
         "tigh = 0.4",
         "stature = '1.7'",
         "limits_deg = 3",
+        "sex = ['male']",
+        "[limits]\nleft_knee_flexion = [0, 20]",  # not to be mistaken for limits_deg
         "\x00",
         "[limits_deg]\nleft_knee_flexion = [1]",
         "[limits_deg]\nleft_knee_flexion = ['a', 'b']",

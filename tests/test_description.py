@@ -151,6 +151,9 @@ def test_single_arguments_can_be_overridden():
         ("left_knee_flexion_upper", "130"),
         ("left_knee_flexion_effort", "0"),
         ("left_shank_link_mass", "0"),
+        ("left_shank_link_mass", "1e9"),
+        ("left_shank_com", "5 5 5"),
+        ("left_knee_flexion_upper", "-1"),  # below its lower limit
         ("left_shank_com", "1 2"),
         ("left_shank_inertia", "1 0 0 1 0 3"),
     ],

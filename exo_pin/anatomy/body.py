@@ -15,6 +15,8 @@ from exo_pin.anatomy.names import SIDES
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 
+_LONGEST_LEG = 0.75  # of the stature; 0.53 is average
+
 
 class Leg(NamedTuple):
     """Sizes [m] and the wearer's masses [kg] of one leg; `LEG_SIZES` says what each one measures."""
@@ -113,6 +115,8 @@ class Body:
         """
         values = tomlfile.read(path)
         try:
+            if "limits" in values:
+                raise DescriptionError("joint ranges go into the table [limits_deg], in degrees")
             values["limits"] = _radians(values.pop("limits_deg", {}))
             return cls.from_stature(**values)
         except ExoPinError as error:
@@ -128,7 +132,8 @@ class Body:
         degrees = {name: [round(math.degrees(x), 12) for x in pair] for name, pair in self.limits.items()}
         tomlfile.write(
             path,
-            "A body for exo_pin: lengths in metres, masses in kilograms, joint ranges in degrees.",
+            "A body for exo_pin: lengths in metres, masses in kilograms, joint ranges in degrees.\n"
+            "A size that is deleted follows from stature, mass and sex; one that stands here does not.",
             values,
             comments={name: f"{size.unit}, {size.what}" for name, size in SIZES.items()},
             tables={"limits_deg": degrees},
@@ -150,6 +155,11 @@ class Body:
                     f"{side}_heel + {side}_ball = {leg.heel + leg.ball:.3f} m is more than "
                     f"{side}_foot_length = {leg.foot_length:.3f} m"
                 )
+        if self.leg_length > self.stature * _LONGEST_LEG:
+            raise DescriptionError(
+                f"a leg of {self.leg_length:.2f} m (thigh + shank + ankle_height) does not go with "
+                f"stature = {self.stature:.2f} m"
+            )
         if self.waist_width <= self.hip_width:
             raise DescriptionError(
                 f"waist_width = {self.waist_width:.3f} m must be more than hip_width = {self.hip_width:.3f} m"
@@ -219,7 +229,7 @@ def _average(stature: float, mass: float, sex: str) -> dict[str, float]:
 
 
 def _check_sex(sex: object) -> None:
-    if sex not in tables.DE_LEVA:
+    if not isinstance(sex, str) or sex not in tables.DE_LEVA:
         raise UnknownNameError("sex", str(sex), tables.DE_LEVA)
 
 

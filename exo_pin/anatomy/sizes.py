@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
@@ -68,11 +69,12 @@ def checked(name: str, value: object) -> float:
     """
     size = SIZES[name]
     accepted = f"{size.low:g} .. {size.high:g} {size.unit} is accepted"
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
         raise DescriptionError(f"{name} is {value!r}; a number of {accepted}")
-    if not size.low <= value <= size.high:
-        raise DescriptionError(f"{name} = {value:g} {size.unit} is not plausible; {accepted}")
-    return float(value)
+    number = float(value)
+    if not size.low <= number <= size.high:
+        raise DescriptionError(f"{name} = {number:g} {size.unit} is not plausible; {accepted}")
+    return number
 
 
 def checked_limits(limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
@@ -83,10 +85,15 @@ def checked_limits(limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple
         DescriptionError: A pair is not lower < upper within one turn.
     """
     complete = dict(DEFAULT_LIMITS)
+    if not isinstance(limits, Mapping):
+        raise DescriptionError(f"limits is {limits!r}; a table of joint: (lower, upper) is accepted")
     for name, pair in limits.items():
         if name not in complete:
             raise UnknownNameError("joint", name, JOINTS)
-        lower, upper = (float(x) for x in pair)
+        try:
+            lower, upper = (float(x) for x in pair)
+        except (TypeError, ValueError):
+            raise DescriptionError(f"limits of {name}: {pair!r}; a pair lower, upper is accepted") from None
         if not -math.pi <= lower < upper <= math.pi:
             raise DescriptionError(
                 f"limits of {name}: {math.degrees(lower):g} .. {math.degrees(upper):g} deg; "

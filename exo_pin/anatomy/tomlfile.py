@@ -27,7 +27,8 @@ def write(
     import tomlkit  # only this function needs it
 
     document = tomlkit.document()
-    document.add(tomlkit.comment(title))
+    for line in title.splitlines():
+        document.add(tomlkit.comment(line))
     for name, value in values.items():
         item = tomlkit.item(value)
         if name in comments:
