@@ -60,6 +60,16 @@ def test_a_foot_that_was_not_reached_is_not_ok():
     assert not dataclasses.replace(verdict, recovery=recovery).ok
 
 
+def test_a_wrong_branch_that_reaches_the_feet_is_not_ok():
+    verdict = crosscheck.check(ROBOT, normative_gait())
+    gait = verdict.recovery.gait
+    turned = dataclasses.replace(gait, q=gait.q + 0.01)
+    recovery = dataclasses.replace(verdict.recovery, gait=turned)
+    assert not dataclasses.replace(verdict, recovery=recovery).ok
+    assert not dataclasses.replace(verdict, agreement=0.01).ok
+    assert not dataclasses.replace(verdict, fk={"recursion": 1e-9}).ok
+
+
 def test_only_our_own_robots_have_a_witness():
     with pytest.raises(DescriptionError, match="load_robot"):
         crosscheck.forward(load_urdf(ROBOT.urdf), np.zeros((1, 12)))

@@ -55,15 +55,21 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(verdict: Check, name: str) -> None:
+    from exo_pin.crosscheck import FK_TOLERANCE
+
     facts = verdict.facts()
     fk, ik = facts["fk_max_difference"], facts["ik"]
     titles = {"recursion": "the paper's recursion", "dh": "modified D-H table", "yourdfpy": "yourdfpy"}
-    rows = [[f"{titles[k]} against Pinocchio", f"{v:.1e} m", _mark(v <= 1e-12)] for k, v in fk.items()]
+    rows = [[f"{titles[k]} against Pinocchio", f"{v:.1e}", _mark(v <= FK_TOLERANCE)] for k, v in fk.items()]
     rows += [
         ["feet reached by IK, position", f"{ik['max_position_error_m']:.1e} m", _mark(verdict.ik_ok)],
         ["feet reached by IK, rotation", f"{ik['max_rotation_error_rad']:.1e} rad", _mark(verdict.ik_ok)],
-        ["angles recovered (knee bent > 5 deg)", f"{ik['max_angle_error_deg']:.1e} deg", ""],
-        ["closed form against iteration", f"{ik['method_agreement_deg']:.1e} deg", ""],
+        [
+            "angles recovered (knee bent > 5 deg)",
+            f"{ik['max_angle_error_deg']:.1e} deg",
+            _mark(verdict.angles_ok),
+        ],
+        ["closed form against iteration", f"{ik['method_agreement_deg']:.1e} deg", _mark(verdict.angles_ok)],
         ["frames converged", f"{ik['converged']} of {ik['frames']}", _mark(verdict.ik_ok)],
     ]
     show.table(f"Cross-checks: {name}", ["check", "largest difference", ""], rows)
@@ -84,6 +90,7 @@ def _why(verdict: Check) -> str:
     reasons = [
         (verdict.fk_ok, "forward kinematics disagree"),
         (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
+        (verdict.angles_ok, "recovered angles differ from the given ones, or the two methods disagree"),
         (verdict.limits_ok, f"outside the limits: {', '.join(outside)}"),
     ]
     return "NO: " + "; ".join(text for ok, text in reasons if not ok)

@@ -1,10 +1,11 @@
 """Cross-checks: forward kinematics four ways, inverse against forward, joint limits, a verdict."""
 
-from exo_pin.crosscheck.recovery import BENT_KNEE, IK_TOLERANCE, Recovery, recover
+from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, BENT_KNEE, IK_TOLERANCE, Recovery, recover
 from exo_pin.crosscheck.verdict import Check, check, limits
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 
 __all__ = [
+    "ANGLE_TOLERANCE",
     "BENT_KNEE",
     "FK_TOLERANCE",
     "IK_TOLERANCE",

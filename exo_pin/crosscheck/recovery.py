@@ -19,6 +19,9 @@ Array = npt.NDArray[np.float64]
 IK_TOLERANCE = 1e-9
 """Largest distance of the recovered from the given foot [m and rad]."""
 
+ANGLE_TOLERANCE = 1e-6
+"""Largest difference of an angle that is compared [rad]: a foot within 1e-9 m leaves so much at 5 degrees."""
+
 BENT_KNEE = np.radians(5.0)
 """Angles are compared where the knee is bent more than this [rad]: towards a straight knee a foot's pose
 hardly tells the knee's angle."""

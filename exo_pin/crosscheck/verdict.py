@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from exo_pin import ik
-from exo_pin.crosscheck.recovery import IK_TOLERANCE, Recovery, recover
+from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, IK_TOLERANCE, Recovery, recover
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
@@ -46,6 +46,12 @@ class Check:
         return bool(track.converged[within].all() and (errors <= IK_TOLERANCE).all())
 
     @property
+    def angles_ok(self) -> bool:
+        """The recovered angles are the given ones, and both methods agree, where angles are comparable."""
+        errors = np.abs(self.recovery.angle_error[self.recovery.comparable])
+        return bool((errors <= ANGLE_TOLERANCE).all() and self.agreement <= ANGLE_TOLERANCE)
+
+    @property
     def limits_ok(self) -> bool:
         """No joint leaves its limits in any frame."""
         return not any(frames for _, _, frames in self.limits.values())
@@ -53,7 +59,7 @@ class Check:
     @property
     def ok(self) -> bool:
         """All of the above."""
-        return self.fk_ok and self.ik_ok and self.limits_ok
+        return self.fk_ok and self.ik_ok and self.angles_ok and self.limits_ok
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain numbers for JSON: metres, radians and degrees as the names say."""
