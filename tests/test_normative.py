@@ -21,6 +21,7 @@ SPECTRAL = 1e-9  # [rad/s^2]
 FIT = 0.6  # [deg] what eight harmonics leave of the source's curves, DOMAIN.md section 5
 SPREAD_FIT = 1.1  # [deg] what four harmonics leave of the source's standard deviations; most within 0.5
 FLAT = np.radians(3)  # fore-and-aft slope of the sole in mid-stance, the number
+FAST = np.radians(4)  # of the two fast speeds, whose children roll over the foot sooner: 3.9 measured
 ROLL = np.radians(4)  # sideways slope: the ankle's inversion is a weak channel
 MID_STANCE = (0.12, 0.31)  # Perry's mid-stance, as a part of the cycle
 REPOSITORY = Path(__file__).resolve().parents[1]
@@ -176,12 +177,13 @@ def test_the_feet_of_this_file_are_the_feet_of_the_package():
     np.testing.assert_allclose(T[:, order][..., :3, 3], mine[:, np.lexsort(mine[0].T)], atol=ROUNDING)
 
 
-def test_the_stance_sole_is_flat_in_mid_stance():
-    gait = normative_gait("free", samples=200)
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_the_stance_sole_is_flat_in_mid_stance(speed):
+    gait = normative_gait(speed, samples=200)
     R, _ = foot(gait, "left", Body.from_stature())
     phase = gait.time / gait.duration
     mid = (MID_STANCE[0] <= phase) & (phase <= MID_STANCE[1])
-    assert np.abs(np.arcsin(R[mid, 2, 0])).max() < FLAT
+    assert np.abs(np.arcsin(R[mid, 2, 0])).max() < (FAST if "fast" in speed else FLAT)
     assert np.abs(np.arcsin(R[mid, 2, 1])).max() < ROLL
 
 
@@ -212,7 +214,7 @@ def test_impossible_requests_are_refused():
         normative_sd("veryfast")
     with pytest.raises(GaitError, match="samples"):
         normative_sd(samples=0)
-    with pytest.raises(GaitError, match="at least 17"):
+    with pytest.raises(GaitError, match="from 17 on"):
         normative_gait(samples=16)
     for length in (93.0, 0.0, float("nan")):
         with pytest.raises(GaitError, match="leg_length"):

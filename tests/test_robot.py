@@ -49,6 +49,12 @@ def test_check_limits_names_the_worst_joint():
     ROBOT.check_limits(ROBOT.q())
 
 
+def test_what_is_not_a_number_is_within_no_limits():
+    for q in (ROBOT.q({"left_knee_flexion": np.nan}), np.full(12, np.nan)):
+        with pytest.raises(LimitError, match="nan"):
+            ROBOT.check_limits(q)
+
+
 @pytest.mark.parametrize(
     "body", [Body.from_stature(), Body.from_stature(left_thigh=0.5)], ids=["even", "uneven"]
 )

@@ -57,8 +57,8 @@ def normative_gait(speed: str = "free", *, leg_length: float | None = None, samp
     length = Body.from_stature().leg_length if leg_length is None else leg_length
     if not LEG_LENGTHS[0] <= length <= LEG_LENGTHS[1]:
         raise GaitError(f"leg_length = {length} m: expected {LEG_LENGTHS[0]} to {LEG_LENGTHS[1]} m")
-    if samples <= 2 * HARMONICS:
-        raise GaitError(f"samples = {samples}: {HARMONICS} harmonics need at least {2 * HARMONICS + 1}")
+    if samples != int(samples) or samples <= 2 * HARMONICS:
+        raise GaitError(f"samples = {samples}: a whole number from {2 * HARMONICS + 1} on is accepted")
     stride = 2 / (TIMING[speed]["cadence"] * math.sqrt(GRAVITY / length))
     phase = np.arange(samples) / samples
     return Gait(

@@ -131,8 +131,8 @@ class Gait:
         Raises:
             GaitError: If `n` is less than 2.
         """
-        if n < 2:
-            raise GaitError(f"resampled to {n} samples: expected at least 2")
+        if n < 2 or n != int(n):
+            raise GaitError(f"resampled to {n} samples: a whole number from 2 on is accepted")
         start, span = self.time[0], self.duration
         time = start + span * np.arange(n) / n if self.periodic else np.linspace(start, self.time[-1], n)
         q = curves.resampled(self.time, self.q, time, self.periodic)
@@ -150,8 +150,8 @@ class Gait:
         """
         if not self.periodic:
             raise GaitError("a gait that is not periodic cannot be repeated: its ends do not meet")
-        if k < 1:
-            raise GaitError(f"repeated {k} times: expected at least 1")
+        if k < 1 or k != int(k):
+            raise GaitError(f"repeated {k} times: a whole number from 1 on is accepted")
         n, T = len(self), self.duration
         time = T * np.arange(k * n) / n
         base = None if self.base is None else np.tile(self.base, (k, 1, 1))

@@ -37,7 +37,7 @@ def poses(
         UnknownNameError: A frame is unknown.
         DescriptionError: The shape of q or base does not fit.
     """
-    ids = [robot.frame(name) for name in frames]
+    ids = _indices(robot, frames)
     model, data = robot.model, robot.model.createData()
     rows, shape = samples(robot, q)
     out = np.empty((len(rows), len(ids), 4, 4))
@@ -157,6 +157,12 @@ def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     return np.asarray(base @ np.linalg.inv(robot.placement))
 
 
+def _indices(robot: Robot, frames: Sequence[str]) -> list[int]:
+    if isinstance(frames, str):
+        raise DescriptionError(f"frames is {frames!r}; a sequence of names is accepted, e.g. ({frames!r},)")
+    return [robot.frame(name) for name in frames]
+
+
 def _spatial(
     robot: Robot,
     n: int,
@@ -166,7 +172,7 @@ def _spatial(
     row: Callable[[Any, int, list[int]], list[Array]],
 ) -> Array:
     """Spatial vectors (..., F, 6) sample by sample, turned with the base."""
-    ids = [robot.frame(name) for name in frames]
+    ids = _indices(robot, frames)
     data = robot.model.createData()
     out = np.array([row(data, k, ids) for k in range(n)]).reshape(*shape, len(ids), 6)
     if base is None:

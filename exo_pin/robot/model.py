@@ -137,9 +137,10 @@ class Robot:
         """
         angles = self.angles(q).reshape(-1, len(self.joints))
         excess = np.maximum(angles - self.upper, self.lower - angles)
-        if not len(excess) or np.nanmax(excess) <= tolerance:
+        excess[np.isnan(excess)] = np.inf  # not a number is outside every limit
+        if not len(excess) or excess.max() <= tolerance:
             return
-        frame, j = np.unravel_index(np.nanargmax(excess), excess.shape)
+        frame, j = np.unravel_index(np.argmax(excess), excess.shape)
         where = f" in frame {frame}" if len(angles) > 1 else ""
         raise LimitError(
             self.joints[j], float(angles[frame, j]), float(self.lower[j]), float(self.upper[j]), where=where
