@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 
-_SHOWN = 14  # names in a message: all twelve joints and both feet fit
+_SHOWN = 45  # names in a message: all sizes of a body fit
 
 
 class ExoPinError(Exception):

@@ -46,6 +46,12 @@ def test_without_a_word_the_help_is_shown(capsys):
         ["replay", "no_such_file.mot"],
         ["no_such_file.mot"],
         ["info", "fre"],
+        ["chekc"],
+        ["check", "free", "--preset", "vicon-pig"],
+        ["fk", "free", "-o", "poses.mot"],
+        ["body", "--set", "limits=3"],
+        ["urdf", "limits:=3"],
+        ["urdf", "left_knee_flexion_lower:=2", "left_knee_flexion_upper:=1"],
         ["check", "--stature", "17.5"],
         ["check", "--mass", "0"],
         ["check", "--set", "tigh=0.4"],
@@ -137,6 +143,19 @@ def test_dh_prints_twelve_rows_and_the_difference(capsys, style):
     assert "0.4" in out
     rows = [line for line in out.splitlines() if "left" in line.replace("\\", "") and "flexion" in line]
     assert len(rows) == 3  # hip, knee, ankle dorsiflexion
+
+
+def test_an_inferred_sign_is_told(capsys, tmp_path):
+    path = tmp_path / "walk.mot"
+    run(capsys, "convert", "free", path)
+    head, table = path.read_text().split("endheader")
+    kept = ("Coordinates", "version", "nRows", "nColumns", "inDegrees")  # as OpenSim itself writes
+    plain = "\n".join(line for line in head.splitlines() if line.startswith(kept))
+    path.write_text(f"{plain}\nendheader{table}")
+    _, out, err = run(capsys, "check", path, "--json")
+    assert "knee" in err
+    assert "inferred" in err
+    json.loads(out)
 
 
 def test_info_lists_ranges_and_events(capsys):

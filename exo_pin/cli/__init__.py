@@ -6,10 +6,11 @@ import argparse
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
 from exo_pin import __version__
-from exo_pin.errors import ConvergenceError, ExoPinError, LimitError
+from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError
 
 COMMANDS = {
     "replay": "watch the exoskeleton walk in the browser, or write one offline page",
@@ -54,9 +55,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         The exit code: 0 done, 1 the verdict is no, 2 bad input.
     """
     words = list(sys.argv[1:] if argv is None else argv)
-    if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
-        words.insert(0, "replay")
     try:
+        if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
+            if not Path(words[0]).suffix and not Path(words[0]).exists():
+                raise UnknownNameError("command or file", words[0], COMMANDS)
+            words.insert(0, "replay")
         args = _parser(words).parse_args(words)
         if args.command is None:
             _parser(words).print_help()

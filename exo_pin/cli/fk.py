@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from exo_pin.cli import options, show
+from exo_pin.errors import DescriptionError
 
 _EXAMPLES = """examples:
   exo-pin fk walk.mot -o poses.csv
@@ -32,6 +34,8 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin.kinematics import poses
     from exo_pin.robot import load_robot
 
+    if Path(args.output).suffix.lower() != ".csv":
+        raise DescriptionError(f"{args.output}: a table of poses ends in .csv")
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
     n = len(gait.time)

@@ -61,3 +61,5 @@ def _print(track: Track, output: str) -> None:
     if len(missed):
         more = f" and {len(missed) - 5} more" if len(missed) > 5 else ""
         print(f"out of reach or outside the limits: frames {', '.join(map(str, missed[:5]))}{more}")
+    if len(missed) == len(track.q):
+        print("no frame at all was reached: were the poses made for another body (--body, --stature)?")

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any
 from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.body import both_sides
 from exo_pin.cli import trials
-from exo_pin.errors import DescriptionError, GaitError
+from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
+from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
     from exo_pin.robot import Robot
-
-SPEEDS = ("very_slow", "slow", "free", "fast", "very_fast")
 
 
 def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -> None:
@@ -45,6 +44,8 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     if walk is None:
         mapping = {column: str(joint) for column, joint in map(_column, args.map)}
         walk = load(args.gait, body, preset=args.preset, mapping=mapping, units=args.units)
+    if args.gait not in SPEEDS and walk.source:
+        print(f"read: {walk.source}", file=sys.stderr)
     from exo_pin.gait import doubts
 
     for reason in doubts(walk):
@@ -63,9 +64,13 @@ def _column(text: str) -> tuple[str, str]:
 def load(name: str, body: Body, **reading: Any) -> Gait:
     """A gait by file or speed; a normal walk's stride time follows the body's legs."""
     if name in SPEEDS and not Path(name).exists():
+        if any(reading.values()):
+            raise DescriptionError(f"{name} is a normal walk; --preset, --map and --units are for files")
         from exo_pin.gait import normative_gait
 
         return normative_gait(name, leg_length=body.leg_length)
+    if not Path(name).suffix and not Path(name).exists():
+        raise UnknownNameError("gait (a file or a speed)", name, SPEEDS)
     from exo_pin.formats import load_gait
 
     return load_gait(name, **reading)
@@ -148,4 +153,4 @@ def with_events(robot: Robot, gait: Gait) -> tuple[Gait, str]:
     try:
         return dataclasses.replace(gait, events=events(robot, gait)), ""
     except GaitError as error:
-        return gait, f"no events from the motion either: {error}"
+        return gait, f"The motion tells no heel strikes and toe-offs: {error}"

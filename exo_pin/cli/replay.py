@@ -46,7 +46,7 @@ def run(args: argparse.Namespace) -> int:
     if not 0 <= args.port <= 65535:
         raise DescriptionError(f"--port is {args.port}; 0 .. 65535 is accepted (0: any free one)")
     body, gait = walk.read(args)
-    if not args.html:
+    if args.html is None:
         return _serve(args, body, gait)
     from exo_pin import viewer
 

@@ -11,6 +11,7 @@ from exo_pin.cli import options, show, walk
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
+from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
@@ -37,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--normal",
-        choices=(*options.SPEEDS, "none"),
+        choices=(*SPEEDS, "none"),
         default="free",
         help="speed of the normative band (default: free)",
     )

@@ -14,15 +14,19 @@ BLOCK = 2000
 """Samples between two steps of a progress bar."""
 
 
+_NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers begin
+
+
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; the first column is text, the others are numbers."""
+    """Print a table; columns of numbers are aligned to the right."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
 
     drawn = Table(box=box.SIMPLE_HEAD, title=None)
     for k, name in enumerate(columns):
-        drawn.add_column(name, justify="right" if k else "left", no_wrap=not k)
+        numbers = all(row[k][:1] in _NUMERIC for row in rows)
+        drawn.add_column(name, justify="right" if k and numbers else "left", no_wrap=not k)
     for row in rows:
         drawn.add_row(*row)
     print(title)

@@ -63,7 +63,8 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     name = Path(args.gait).name
     notes = [line for line in (gait.source, note) if line]
     if args.device == "exo12":
-        shown = _recovered(robot, gait, name)
+        shown, beyond = _recovered(robot, gait, name)
+        notes += beyond
     else:
         robot, shown, said = _on_device(args, body, gait)
         notes.append(said)
@@ -81,13 +82,16 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     )
 
 
-def _recovered(robot: Robot, gait: Gait, name: str) -> Gait:
-    """The walk that inverse kinematics makes of the gait's feet."""
+def _recovered(robot: Robot, gait: Gait, name: str) -> tuple[Gait, list[str]]:
+    """The walk that inverse kinematics makes of the gait's feet, and what the gait asks beyond the limits."""
     from exo_pin import crosscheck
 
     recovery = crosscheck.recover(robot, gait)
-    _print(robot, recovery, name)
-    return recovery.gait
+    _print(recovery, name)
+    beyond = _beyond(robot, gait)
+    for line in beyond:
+        print(line)
+    return recovery.gait, beyond
 
 
 def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot, Gait, str]:
@@ -108,10 +112,8 @@ def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot,
     return dressed(loss.motion.robot), loss.motion.gait, said
 
 
-def _print(robot: Robot, recovery: Recovery, name: str) -> None:
-    """The solver's residuals and what the gait asks beyond the limits."""
-    from exo_pin import crosscheck
-
+def _print(recovery: Recovery, name: str) -> None:
+    """The solver's residuals."""
     track, within = recovery.track, recovery.within
     rows = [
         ["frames", f"{len(track.q)}"],
@@ -120,14 +122,20 @@ def _print(robot: Robot, recovery: Recovery, name: str) -> None:
         ["largest rotation error", f"{track.rotation_error[within].max(initial=0.0):.1e} rad"],
     ]
     show.table(f"{name} on the exoskeleton", ["inverse kinematics", ""], rows)
-    asked = crosscheck.limits(robot, recovery.given)
-    for joint, (low, high, frames) in asked.items():
+
+
+def _beyond(robot: Robot, gait: Gait) -> list[str]:
+    """What the gait asks beyond the joint limits, a sentence each."""
+    from exo_pin import crosscheck
+
+    lines = []
+    for joint, (low, high, frames) in crosscheck.limits(robot, gait).items():
         if frames:
             k = robot.joints.index(joint)
-            print(
-                f"{joint}: {frames} frames outside its limits: the gait asks {_degrees(low, high)}, "
-                f"the joint has {_degrees(robot.lower[k], robot.upper[k])}"
-            )
+            has = _degrees(robot.lower[k], robot.upper[k])
+            asks = _degrees(low, high)
+            lines.append(f"{joint}: {frames} frames outside its limits: the gait asks {asks}, it has {has}")
+    return lines
 
 
 def _degrees(low: float, high: float) -> str:

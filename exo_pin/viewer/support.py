@@ -105,7 +105,7 @@ def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) ->
     x -= x.mean()
     said = (
         f"Balance support: the pelvis is {rise} and moved fore and aft by {_mm(np.ptp(x))}, so that the "
-        f"standing foot stays on the belt, which runs at {-drift.mean():.2f} m/s."
+        f"standing foot stays on the belt, which runs at {round(-drift.mean(), 2) + 0.0:.2f} m/s."
     )
     return x, z, said
 
@@ -202,4 +202,4 @@ def _words(sink: float, hover: float, gap: float, slide: float) -> str:
 
 
 def _mm(metres: float) -> str:
-    return f"{1000 * metres:.1f} mm"
+    return f"{round(1000 * metres, 1) + 0.0:.1f} mm"  # no minus before a zero
