@@ -57,6 +57,28 @@ def test_rows_are_those_of_the_published_table():
     assert [row.a for row in rows] == [0, 0, 0, 0, body.right_shank, 0]
 
 
+@pytest.mark.parametrize("hip_order", HIP_ORDERS)
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_base_and_tool_complete_the_table(side, hip_order, rng):
+    body = BODIES["left differs from right"]
+    q = rng.uniform(-0.5, 0.5, 12)
+    base, tool = dh.ends(body, side, hip_order=hip_order)
+    T = base
+    angles = q[:6] if side == "left" else q[6:]
+    for row, angle in zip(dh.table(body, side, hip_order=hip_order), angles, strict=True):
+        T = T @ _turned("x", row.alpha, row.a) @ _turned("z", angle + row.offset, row.d)
+    foot = dh.recursion(body, q, hip_order=hip_order)[f"{side}_foot"]
+    assert pytest.approx(foot, abs=AGREEMENT) == T @ tool
+
+
+def _turned(axis, angle, shift):
+    """A turn about an axis and a shift along it."""
+    c, s = math.cos(angle), math.sin(angle)
+    if axis == "x":
+        return np.array([[1, 0, 0, shift], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, shift], [0, 0, 0, 1]])
+
+
 def test_one_sample_and_many_are_the_same(rng):
     body = Body.from_stature()
     q = rng.uniform(-0.5, 0.5, (4, 3, 12))

@@ -5,9 +5,16 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.anatomy import SIDES
 from exo_pin.cli import options
-from exo_pin.dh import Row, table
+from exo_pin.dh import Row, ends, table
+
+Array = npt.NDArray[np.float64]
 
 _EXAMPLES = """examples:
   exo-pin dh                                 as Markdown
@@ -25,24 +32,39 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_hip_order(parser)
 
 
+class Table(NamedTuple):
+    """One leg's table, with T_pelvis_0 before it and T_6_foot behind it."""
+
+    side: str
+    rows: Sequence[Row]
+    base: Array
+    tool: Array
+
+
 def run(args: argparse.Namespace) -> int:
     """Print both legs' tables and the largest difference to Pinocchio."""
-    import numpy as np
-
     from exo_pin import crosscheck
     from exo_pin.robot import load_robot
 
-    body = options.body_from(args)
-    robot = load_robot(body, hip_order=args.hip_order)
+    body, order = options.body_from(args), args.hip_order
+    robot = load_robot(body, hip_order=order)
     random = np.random.default_rng(0).uniform(robot.lower, robot.upper, (1000, len(robot.joints)))
     difference = crosscheck.forward(robot, random)["dh"]
     note = (
-        f"modified D-H (Craig), hip order {args.hip_order}, body {body.stature:g} m; frame 0 at the hip "
-        f"centre; largest difference to Pinocchio over 1000 random poses: {difference:.1e} m"
+        f"modified D-H (Craig), hip order {order}, body {body.stature:g} m; "
+        f"T_pelvis_foot = base * rows * tool; largest difference to Pinocchio over 1000 random poses: "
+        f"{difference:.1e}"
     )
-    rows = [row for side in ("left", "right") for row in table(body, side, hip_order=args.hip_order)]
-    print(_FORMATS[args.format](rows, note))
+    legs = [
+        Table(side, table(body, side, hip_order=order), *ends(body, side, hip_order=order)) for side in SIDES
+    ]
+    print(_FORMATS[args.format](legs, note))
     return 0
+
+
+def _matrix(T: Array, separator: str = "; ") -> str:
+    """The upper three rows; rounding of exact zeros taken out."""
+    return separator.join(" ".join(f"{x:g}" for x in np.round(row, 12) + 0.0) for row in T[:3])
 
 
 def _angle(name: str, offset: float) -> str:
@@ -53,54 +75,66 @@ def _angle(name: str, offset: float) -> str:
 def _cells(rows: Sequence[Row]) -> list[list[str]]:
     """joint, i, alpha [deg], a [m], theta [deg], d [m]."""
     cells = []
-    for k, row in enumerate(rows):
-        i = str(k % 6 + 1)
+    for i, row in enumerate(rows, 1):
         alpha, theta = f"{math.degrees(row.alpha):g}", _angle(f"q{i}", row.offset)
-        cells.append([row.joint, i, alpha, f"{row.a:g}", theta, f"{row.d:g}"])
+        cells.append([row.joint, str(i), alpha, f"{row.a:g}", theta, f"{row.d:g}"])
     return cells
 
 
 _HEAD = ["joint", "i", "alpha_{i-1} [deg]", "a_{i-1} [m]", "theta_i [deg]", "d_i [m]"]
 
 
-def _markdown(rows: Sequence[Row], note: str) -> str:
-    lines = [_HEAD, ["---"] * len(_HEAD), *_cells(rows)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + f"\n\n{note}"
+def _markdown(legs: Sequence[Table], note: str) -> str:
+    lines = [_HEAD, ["---"] * len(_HEAD), *(cells for leg in legs for cells in _cells(leg.rows))]
+    drawn = "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return f"{drawn}\n\n{note}\n\n{_ends(legs, '- ')}"
 
 
-def _csv(rows: Sequence[Row], note: str) -> str:
-    lines = [
-        f"{row.joint},{k % 6 + 1},{row.alpha!r},{row.a!r},{row.offset!r},{row.d!r}"
-        for k, row in enumerate(rows)
-    ]
-    return "\n".join([f"# {note}", "joint,i,alpha_rad,a_m,theta_offset_rad,d_m", *lines])
-
-
-def _latex(rows: Sequence[Row], note: str) -> str:
-    head = r"joint & $i$ & $\alpha_{i-1}$ [deg] & $a_{i-1}$ [m] & $\theta_i$ [deg] & $d_i$ [m] \\ \hline"
-    lines = []
-    for joint, i, alpha, a, theta, d in _cells(rows):
-        name = joint.replace("_", r"\_")
-        lines.append(rf"{name} & {i} & ${alpha}$ & ${a}$ & ${theta.replace('q', 'q_')}$ & ${d}$ \\")
+def _ends(legs: Sequence[Table], mark: str) -> str:
     return "\n".join(
-        [f"% {note}", r"\begin{tabular}{lrrrrr}", r"\hline", head, *lines, r"\hline", r"\end{tabular}"]
+        f"{mark}{leg.side} leg: {name} = [{_matrix(T)}; 0 0 0 1]"
+        for leg in legs
+        for name, T in (("base T_pelvis_0", leg.base), ("tool T_6_foot", leg.tool))
     )
 
 
-def _matlab(rows: Sequence[Row], note: str) -> str:
+def _csv(legs: Sequence[Table], note: str) -> str:
+    lines = [
+        f"{row.joint},{i},{row.alpha!r},{row.a!r},{row.offset!r},{row.d!r}"
+        for leg in legs
+        for i, row in enumerate(leg.rows, 1)
+    ]
+    return "\n".join([f"# {note}", _ends(legs, "# "), "joint,i,alpha_rad,a_m,theta_offset_rad,d_m", *lines])
+
+
+def _latex(legs: Sequence[Table], note: str) -> str:
+    head = r"joint & $i$ & $\alpha_{i-1}$ [deg] & $a_{i-1}$ [m] & $\theta_i$ [deg] & $d_i$ [m] \\ \hline"
+    lines = []
+    for joint, i, alpha, a, theta, d in (cells for leg in legs for cells in _cells(leg.rows)):
+        name = joint.replace("_", r"\_")
+        lines.append(rf"{name} & {i} & ${alpha}$ & ${a}$ & ${theta.replace('q', 'q_')}$ & ${d}$ \\")
+    top = [f"% {note}", _ends(legs, "% "), r"\begin{tabular}{lrrrrr}", r"\hline", head]
+    return "\n".join([*top, *lines, r"\hline", r"\end{tabular}"])
+
+
+def _matlab(legs: Sequence[Table], note: str) -> str:
     lines = [f"% {note}"]
-    for k, side in enumerate(("left", "right")):
-        lines.append(f"{side} = SerialLink([")
+    for leg in legs:
+        lines.append(f"{leg.side} = SerialLink([")
         lines += [
             f"  Link('revolute', 'modified', 'd', {row.d!r}, 'a', {row.a!r}, "
             f"'alpha', {row.alpha!r}, 'offset', {row.offset!r})  % {row.joint}"
-            for row in rows[6 * k : 6 * k + 6]
+            for row in leg.rows
         ]
-        lines.append(f"], 'name', '{side} leg');")
+        lines.append(f"], 'name', '{leg.side} leg');")
+        lines += [
+            f"{leg.side}.{name} = [{_matrix(T)}; 0 0 0 1];"
+            for name, T in zip(("base", "tool"), leg[2:], strict=True)
+        ]
     return "\n".join(lines)
 
 
-_FORMATS: dict[str, Callable[[Sequence[Row], str], str]] = {
+_FORMATS: dict[str, Callable[[Sequence[Table], str], str]] = {
     "markdown": _markdown,
     "csv": _csv,
     "latex": _latex,

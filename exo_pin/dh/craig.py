@@ -98,11 +98,26 @@ def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") ->
     return poses | soles(body, poses)
 
 
-def _product(body: Body, side: str, rows: list[Row], q: Array, hip_order: str) -> list[Array]:
-    """Poses of the D-H frames 1 to 6 in the pelvis."""
+def ends(body: Body, side: str, *, hip_order: str = "clinical") -> tuple[Array, Array]:
+    """What stands before and behind the table: T_pelvis_0 and T_6_foot (4, 4), the frame on the sole."""
+    rows = table(body, side, hip_order=hip_order)
+    last = _product(body, side, rows, np.zeros(6), hip_order)[-1]
+    sole = _places(body, side)[-1].copy()
+    sole[2, 3] -= body.leg(side).ankle_height
+    return _base(body, side, hip_order), np.linalg.inv(last) @ sole
+
+
+def _base(body: Body, side: str, hip_order: str) -> Array:
+    """T_pelvis_0: frame 0 lies at the hip centre."""
     T = np.eye(4)
     T[:3, :3] = _BASE_FRAMES[hip_order, side]
     T[1, 3] = (1 if side == "left" else -1) * body.hip_width / 2
+    return T
+
+
+def _product(body: Body, side: str, rows: list[Row], q: Array, hip_order: str) -> list[Array]:
+    """Poses of the D-H frames 1 to 6 in the pelvis."""
+    T = _base(body, side, hip_order)
     poses = []
     for i, row in enumerate(rows):
         T = T @ _craig(row, q[..., i])
