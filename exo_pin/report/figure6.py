@@ -36,8 +36,8 @@ def recovered(gait: Gait, recording: Gait | None, answers: list[Answer]) -> Sect
         outside = int((~others[1].within).sum())
         caption = (
             f"{others[1].title}. Its angles make the feet on our model; {outside} of {len(recording)} "
-            "samples ask for angles outside the joint limits: there the answer is the posture the "
-            "limits that puts the feet in the same place, or as near as can be."
+            "samples ask for angles outside the joint limits: there the answer is the posture within them "
+            "that puts the feet in the same place, or as near as can be."
         )
         blocks.append(Figure(_over(recording, others[1], "fig6_recording"), caption))
     calm = answers[-len(NOISES) :]

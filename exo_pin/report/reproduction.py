@@ -191,7 +191,8 @@ def _curves(gait: Gait, recording: Gait | None, name: str) -> Section:
 
 def _poses(robot: Robot, gait: Gait, pictures: Rendered) -> Section:
     drawing, note = skeleton.poses_chart(robot, gait)
-    blocks: list[Block] = [Figure((drawing,), f"Fig. 5. {note}", columns=1)]
+    size = "" if robot.body is None else f" A body of {robot.body.stature:.2f} m."
+    blocks: list[Block] = [Figure((drawing,), f"Fig. 5. {note}{size}", columns=1)]
     if pictures.poses:
         picture = Drawing("fig5_rendered", "Ten poses, rendered", png=pictures.poses)
         caption = "The same ten poses, at 0, 10 .. 90 % of the cycle, rendered by the player."

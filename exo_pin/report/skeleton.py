@@ -46,7 +46,7 @@ def frames_parallel(robot: Robot) -> float:
 
 def frames_drawing(robot: Robot) -> Drawing:
     """The 13 local frames and the world's at q = 0, seen from the front left."""
-    see = _camera(robot, 520, 640)
+    see = _camera(robot, 430, 640)
     parts = [*_legs(robot, see, thin=True)]
     words = {"hip": "3 hip frames", "knee": "knee frame", "ankle": "2 ankle frames"}
     for side in SIDES:
@@ -58,12 +58,12 @@ def frames_drawing(robot: Robot) -> Drawing:
             T = poses(robot, robot.neutral, (f"{side}_{movement}",))[0]
             shift, anchor = (16, "start") if side == "left" else (-16, "end")
             parts += _triad(see, T, 0.085)
-            parts.append(_label(see, T[:3, 3], f"{side}: {words[name]}", shift, 20, anchor))
+            parts.append(_label(see, T[:3, 3], f"{side}: {words[name]}", shift, -10, anchor))
     pelvis = poses(robot, robot.neutral, ("pelvis",))[0]
     parts += [*_triad(see, pelvis, 0.11), _label(see, pelvis[:3, 3], "body", 8, -62, "start")]
-    parts += [*_triad(see, np.eye(4), 0.16), _label(see, np.zeros(3), "world W", 0, 24, "middle")]
+    parts += [*_triad(see, np.eye(4), 0.16), _label(see, np.zeros(3), "world W", -4, 36, "middle")]
     title = "Coordinate frames at q = 0"
-    return Drawing("fig1_frames", title, svg.drawing(520, 640, parts, title))
+    return Drawing("fig1_frames", title, svg.drawing(430, 640, parts, title))
 
 
 def model_drawing(robot: Robot) -> Drawing:
