@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from exo_pin import ik
+from exo_pin import devices, ik
 from exo_pin.anatomy import FEET, HIP_ORDERS, Body
 from exo_pin.errors import ConvergenceError, DescriptionError, UnknownNameError
 from exo_pin.formats import load_gait
@@ -226,3 +226,15 @@ def test_settings_refuse_nonsense():
         ik.Dls(damping=-1.0)
     with pytest.raises(UnknownNameError, match="solver"):
         ik.track(load_robot(), {"left_foot": np.eye(4)[None]}, settings="dls")
+
+
+def test_a_leg_of_one_joint_comes_as_near_as_it_can():
+    robot, whole = load_robot(device=devices.subset(["hip_flexion"])), load_robot()
+    walk = whole.q({"left_hip_flexion": 0.3, "left_knee_flexion": 0.2})
+    target = poses(whole, walk)[0][None]
+    track = ik.track(robot, {"left_foot": ik.Position(target[:, :3, 3])})
+    assert not track.converged[0]
+    angle = track.q[0, robot.column("left_hip_flexion")]
+    for other in (angle - 0.01, angle + 0.01):
+        foot = poses(robot, robot.q({"left_hip_flexion": other}))[0, :3, 3]
+        assert np.linalg.norm(foot - target[0, :3, 3]) > track.position_error[0, 0]

@@ -105,11 +105,11 @@ def worth(gait: Gait, body: Body | None = None, *, progress: Progress = iter) ->
 def narrowed(robot: Robot, movements: Iterable[str]) -> Robot:
     """The robot with the joints of all other movements fixed at zero.
 
-    A leg keeps at least two joints, because inverse kinematics does not take the Jacobian of one; what is too
-    much is held at zero by its limits.
+    A leg keeps at least one joint, since a leg without any has nothing to solve; it is held at zero by its
+    limits.
     """
     free = set(movements)
-    kept = {*free, *[m for m in MOVEMENTS if m not in free][: max(0, 2 - len(free))]}
+    kept = {*free, *[m for m in MOVEMENTS if m not in free][: max(0, 1 - len(free))]}
     locked = [robot.model.getJointId(joint) for joint in robot.joints if movement_of(joint) not in kept]
     model = pin.buildReducedModel(robot.model, locked, robot.neutral)
     stays = np.array([movement_of(joint) in kept for joint in robot.joints])

@@ -83,7 +83,7 @@ def residual(
     parts, slopes, errors = [], [], np.full((2, len(goals)), np.nan)
     for f, (index, goal) in enumerate(zip(limb.ids, goals, strict=True)):
         M = pin.updateFramePlacement(limb.model, data, index)
-        J = pin.getFrameJacobian(limb.model, data, index, _AXES)
+        J = pin.getFrameJacobian(limb.model, data, index, _AXES).reshape(6, -1)  # one joint: a vector
         R, origin = M.rotation, M.translation
         worst = 0.0
         for point, target, weight in zip(goal.local, goal.p[k], goal.weight[k], strict=True):
