@@ -16,7 +16,7 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, normative_gait, normative_sd
 from exo_pin.kinematics import center_of_mass, spatiotemporal
-from exo_pin.report import blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.report import axis, blocks, chart, cycle, loop, noise, panels, skeleton, svg
 from exo_pin.report.motion import motion
 from exo_pin.robot import load_robot, load_urdf
 
@@ -296,9 +296,15 @@ def test_a_curve_is_drawn_where_its_numbers_are():
     np.testing.assert_allclose(points, [[x, y + height], [x + width, y + height / 2]], atol=0.01)
 
 
+def test_a_long_recording_is_thinned_for_drawing_only():
+    x = np.linspace(0, 1, 50_001)
+    drawing = chart.draw(chart.Chart(title="long", curves=(chart.Curve(x, x, "#123456"),)))
+    assert len(drawing) < 40_000
+
+
 @pytest.mark.parametrize(("low", "high"), [(0, 1), (-7.3, 61.2), (1e-9, 3e-9), (-2e5, 9e5)])
 def test_ticks_are_round_and_within(low, high):
-    found = np.array(chart.ticks(low, high))
+    found = np.array(axis.ticks(low, high))
     assert 3 <= len(found) <= 10
     assert low - 1e-9 * abs(low) <= found.min() <= found.max() <= high * (1 + 1e-9)
     step = np.diff(found)

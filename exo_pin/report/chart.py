@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import zlib
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -11,11 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from exo_pin.report import svg
+from exo_pin.report.axis import extent, label, ticks
 
 Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 10.0, 26.0, 34.0
 _LEGEND_ROW = 15.0
+_MOST_POINTS = 2000  # of one curve: five for every pixel
 _LETTER = 5.6  # mean width of a letter at 10.5 px
 
 
@@ -135,26 +136,6 @@ def draw(chart: Chart) -> str:
     return svg.drawing(chart.width, height, parts, chart.title)
 
 
-def ticks(low: float, high: float, count: int = 5) -> list[float]:
-    """Round numbers (1, 2, 5 times a power of ten) from low to high, about `count` of them."""
-    raw = (high - low) / max(count, 1)
-    power = 10.0 ** math.floor(math.log10(raw))
-    step = next(power * k for k in (1, 2, 5, 10) if power * k >= raw * 0.72)
-    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
-
-
-def extent(values: list[ArrayLike], least: float, *, pad: float = 0.06) -> tuple[float, float]:
-    """The finite values' range, widened by `pad` and to at least `least`; 0 .. 1 if there are none."""
-    flat = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values] or [np.zeros(0)])
-    flat = flat[np.isfinite(flat)]
-    if not len(flat):
-        return 0.0, 1.0
-    low, high = float(flat.min()), float(flat.max())
-    span = max(high - low, least, 1e-9 * max(abs(low), abs(high)), 1e-12)
-    middle = (low + high) / 2
-    return middle - span * (0.5 + pad), middle + span * (0.5 + pad)
-
-
 def _frame(chart: Chart) -> _Frame:
     x = chart.x_range or extent([c.x for c in chart.curves] + [b.x for b in chart.bands], 0.0, pad=0.0)
     seen = [c.y for c in chart.curves] + [edge for b in chart.bands for edge in (b.low, b.high)]
@@ -178,13 +159,13 @@ def _axes(chart: Chart, frame: _Frame) -> list[str]:
             svg.line([[frame.left, at], [right, at]], "#9aa4af" if strong else svg.FAINT, stroke_width=0.8)
         )
         parts.append(
-            svg.text(frame.left - 5, at + 3.5, _tick(y, ys), text_anchor="end", font_size=10, fill=svg.GREY)
+            svg.text(frame.left - 5, at + 3.5, label(y, ys), text_anchor="end", font_size=10, fill=svg.GREY)
         )
     for x in xs:
         at = float(frame.across(x))
         parts.append(svg.line([[at, bottom], [at, bottom + 4]], "#9aa4af", stroke_width=0.8))
         parts.append(
-            svg.text(at, bottom + 14, _tick(x, xs), text_anchor="middle", font_size=10, fill=svg.GREY)
+            svg.text(at, bottom + 14, label(x, xs), text_anchor="middle", font_size=10, fill=svg.GREY)
         )
     parts.append(svg.line([[frame.left, bottom], [right, bottom]], "#9aa4af", stroke_width=0.8))
     middle = frame.left + frame.width / 2
@@ -192,14 +173,6 @@ def _axes(chart: Chart, frame: _Frame) -> list[str]:
         svg.text(middle, bottom + 28, chart.x_label, text_anchor="middle", font_size=10.5, fill=svg.GREY)
     )
     return parts
-
-
-def _tick(value: float, all_of_them: list[float]) -> str:
-    step = all_of_them[1] - all_of_them[0] if len(all_of_them) > 1 else 1.0
-    if step < 1e-4:
-        return f"{value + 0.0:.0e}"
-    digits = max(0, -math.floor(math.log10(step) + 1e-9))
-    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def _spans(chart: Chart, frame: _Frame) -> list[str]:
@@ -235,17 +208,22 @@ def _levels(chart: Chart, frame: _Frame) -> list[str]:
 
 def _curves(chart: Chart, frame: _Frame) -> list[str]:
     return [
-        svg.line(frame.points(c.x, c.y), c.colour, stroke_width=c.width, stroke_dasharray=c.dash)
+        svg.line(_thinned(frame.points(c.x, c.y)), c.colour, stroke_width=c.width, stroke_dasharray=c.dash)
         for c in chart.curves
     ]
+
+
+def _thinned(points: Array) -> Array:
+    """Every k-th point, so that a long recording does not make a file of many megabytes."""
+    return points[:: -(-len(points) // _MOST_POINTS) or 1]
 
 
 def _legend(chart: Chart, frame: _Frame) -> tuple[list[str], int]:
     """Keys below the axis, and how many rows they take."""
     keys = {c.label: ("line", c) for c in chart.curves if c.label}
     marks: dict[str, str] = {
-        label: svg.line([[0, 0], [16, 0]], c.colour, stroke_width=max(c.width, 1.6), stroke_dasharray=c.dash)
-        for label, (_, c) in keys.items()
+        name: svg.line([[0, 0], [16, 0]], c.colour, stroke_width=max(c.width, 1.6), stroke_dasharray=c.dash)
+        for name, (_, c) in keys.items()
     }
     for band in chart.bands:
         marks[band.label] = _swatch(band.colour, band.opacity)
@@ -256,13 +234,13 @@ def _legend(chart: Chart, frame: _Frame) -> tuple[list[str], int]:
         marks[span.label] = _swatch(span.colour, 0.12 if span.lane is None else 0.75)
     marks.pop("", None)
     parts, row, x = [], 0, frame.left
-    for label, mark in marks.items():
-        width = 22 + _LETTER * len(label) + 12
+    for name, mark in marks.items():
+        width = 22 + _LETTER * len(name) + 12
         if x > frame.left and x + width > chart.width:
             row, x = row + 1, frame.left
         y = frame.top + frame.height + _BOTTOM + 10 + _LEGEND_ROW * row
         parts.append(svg.tag("g", mark, transform=f"translate({svg.number(x)} {svg.number(y - 3.5)})"))
-        parts.append(svg.text(x + 21, y, label, font_size=10.5))
+        parts.append(svg.text(x + 21, y, name, font_size=10.5))
         x += width
     return parts, row + 1 if parts else 0
 

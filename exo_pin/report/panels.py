@@ -11,8 +11,9 @@ import numpy.typing as npt
 from exo_pin.anatomy import MOVEMENTS, SIDES
 from exo_pin.gait import Gait, normative_gait, normative_sd
 from exo_pin.report import svg
+from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
-from exo_pin.report.chart import Band, Chart, Curve, Level, Span, draw, ticks
+from exo_pin.report.chart import Band, Chart, Curve, Level, Span, draw
 from exo_pin.report.cycle import Leg
 
 Array = npt.NDArray[np.float64]
