@@ -196,8 +196,9 @@ def _runs(mask: NDArray[np.bool_]) -> list[slice]:
 def _words(sink: float, hover: float, gap: float, slide: float) -> str:
     return (
         f"What remains: sole corners sink by up to {_mm(sink)}, the standing foot is up to {_mm(hover)} "
-        f"above the ground, the higher one in double support up to {_mm(gap)}; the standing foot slides "
-        f"sideways by up to {_mm(slide)}."
+        f"above the ground, the higher one in double support up to {_mm(gap)} (the sole has "
+        f"no toes: near toe-off a person's still touch); the standing foot slides sideways by up to "
+        f"{_mm(slide)}."
     )
 
 
