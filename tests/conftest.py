@@ -6,8 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 
 SEED = 20260101
+
+# Examples are no timed tests: on a busy machine one of them may take its time.
+settings.register_profile("exo_pin", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("exo_pin")
 
 
 @pytest.fixture
