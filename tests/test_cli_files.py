@@ -56,7 +56,8 @@ def test_a_foreign_table_is_mapped_on_the_command_line(capsys, tmp_path):
         "deg",
     ]
     code, _, err = run(capsys, "convert", table, tmp_path / "walk.csv", *words)
-    assert (code, err) == (0, "")
+    assert code == 0
+    assert "warning" not in err
     np.testing.assert_allclose(load_gait(tmp_path / "walk.csv").q[:, 3], walk.q[:, 3], atol=EXACT)
     code, _, err = run(capsys, "convert", table, tmp_path / "x.csv", *words[:3], "--map", "KneeL")
     assert code == 2

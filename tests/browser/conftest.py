@@ -14,10 +14,16 @@ from exo_pin.viewer import chromium
 
 
 @pytest.fixture(scope="session")
-def browser():
+def chromium_path():
+    """Path of the browser; without one the test is skipped, or fails where a browser is demanded (CI)."""
     if chromium.find() is None:
         assert "EXO_PIN_REQUIRE_BROWSER" not in os.environ, "CI must test in a browser"
         pytest.skip("needs Chromium (e.g. `apt install chromium`), or its path in EXO_PIN_CHROMIUM")
+    return chromium.find()
+
+
+@pytest.fixture(scope="session")
+def browser(chromium_path):
     with chromium.Chromium((1000, 680)) as running:
         yield running
 

@@ -6,9 +6,7 @@ from exo_pin.viewer import chromium
 
 
 @pytest.fixture(scope="module")
-def plain(file):
-    if chromium.find() is None:
-        pytest.skip("needs Chromium (e.g. `apt install chromium`), or its path in EXO_PIN_CHROMIUM")
+def plain(file, chromium_path):
     with chromium.Chromium((900, 700), flags=["--disable-3d-apis"]) as browser:
         browser.open(file)
         yield browser
