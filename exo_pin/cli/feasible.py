@@ -56,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(verdict: Feasibility, name: str) -> None:
-    columns = ["joint", "asked deg", "range deg", "margin deg", "speed used", "acceleration used", ""]
+    columns = ["joint", "asked deg", "range deg", "margin deg", "speed used", "accel. used", ""]
     show.table(f"{name} on {verdict.robot.name}", columns, [_row(d) for d in verdict.joints])
     facts = verdict.facts()
     pair = " and ".join(facts["clearance_between"])

@@ -18,15 +18,18 @@ _NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers be
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; columns of numbers are aligned to the right."""
+    """Print a table; columns of numbers are aligned to the right and never broken, only their headings."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
 
-    drawn = Table(box=box.SIMPLE_HEAD, title=None)
+    drawn = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
     for k, name in enumerate(columns):
         numbers = all(row[k][:1] in _NUMERIC for row in rows)
-        drawn.add_column(name, justify="right" if k and numbers else "left", no_wrap=not k)
+        if k and numbers:
+            drawn.add_column(name.replace(" ", "\n"), justify="right", no_wrap=True)
+        else:
+            drawn.add_column(name, no_wrap=not k)
     for row in rows:
         drawn.add_row(*row)
     print(title)
