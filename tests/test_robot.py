@@ -49,6 +49,13 @@ def test_check_limits_names_the_worst_joint():
     ROBOT.check_limits(ROBOT.q())
 
 
+def test_outside_marks_the_joints_that_check_limits_refuses():
+    q = np.stack([ROBOT.q(), ROBOT.q({"left_knee_flexion": -0.1})])
+    outside = ROBOT.outside(q)
+    assert outside.sum() == 1
+    assert outside[1, ROBOT.joints.index("left_knee_flexion")]
+
+
 def test_what_is_not_a_number_is_within_no_limits():
     for q in (ROBOT.q({"left_knee_flexion": np.nan}), np.full(12, np.nan)):
         with pytest.raises(LimitError, match="nan"):

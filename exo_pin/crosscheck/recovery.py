@@ -65,10 +65,9 @@ def recover(robot: Robot, gait: Gait, *, settings: Any = None) -> Recovery:
         settings: Settings of `ik.track`; its default if left out.
     """
     q = robot.from_gait(gait)
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     feet = poses(robot, q, FEET, base=base)
     chosen = {} if settings is None else {"settings": settings}
     track = ik.track(robot, {foot: feet[:, k] for k, foot in enumerate(FEET)}, base=base, **chosen)
-    angles = robot.angles(q)
-    within = np.all((angles >= robot.lower - 1e-9) & (angles <= robot.upper + 1e-9), axis=1)
+    within = np.all(~robot.outside(q), axis=1)
     return Recovery(gait, robot.to_gait(track.q, gait), track, within)

@@ -114,8 +114,8 @@ def _agreement(robot: Robot, gait: Gait, recovery: Recovery) -> float:
 
 def limits(robot: Robot, gait: Gait) -> dict[str, tuple[float, float, int]]:
     """By joint: smallest and largest angle [rad], and in how many frames it is outside the robot's limits."""
-    angles = robot.angles(robot.from_gait(gait))
-    outside = ((angles < robot.lower - 1e-9) | (angles > robot.upper + 1e-9)).sum(axis=0)
+    q = robot.from_gait(gait)
+    angles, outside = robot.angles(q), robot.outside(q).sum(axis=0)
     return {
         joint: (float(angles[:, j].min()), float(angles[:, j].max()), int(outside[j]))
         for j, joint in enumerate(robot.joints)

@@ -70,7 +70,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     Raises:
         GaitError: There are no gait cycles in the motion.
     """
-    base = gait.base if robot.base == "fixed" else None  # a floating base stands in q
+    base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
     heading = T[:, 0, :2, 0] / np.linalg.norm(T[:, 0, :2, 0], axis=1, keepdims=True)
     relative = T[:, 1:, :2, 3] - T[:, :1, :2, 3]

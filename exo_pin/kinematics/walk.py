@@ -91,6 +91,6 @@ def _whose(time: Array, soles: Array, plate: Plate, contact: plates.Contact) -> 
 
 def _soles(robot: Robot, gait: Gait) -> Array:
     """`(n, 2, 2, 3)` left and right foot: heel and ball, midway between their corners [m]."""
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
     return np.asarray(corners.reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3))

@@ -71,14 +71,13 @@ def noisy(robot: Robot, gait: Gait, sd: float, *, damping: float = 0.0, seed: in
         seed: Of the noise: the same in every run.
     """
     q = robot.from_gait(gait)
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     feet = poses(robot, q, FEET, base=base)
     feet[..., :3, 3] += np.random.default_rng(seed).normal(scale=sd, size=(*feet.shape[:2], 3))
     settings: ik.Auto | ik.Dls = ik.Dls(damping=damping) if damping else ik.Auto()
     targets = {foot: feet[:, k] for k, foot in enumerate(FEET)}
     track = ik.track(robot, targets, base=base, settings=settings)
-    angles = robot.angles(q)
-    within = np.all((angles >= robot.lower - 1e-9) & (angles <= robot.upper + 1e-9), axis=1)
+    within = np.all(~robot.outside(q), axis=1)
     how = f", damping {damping:g} m/rad" if damping else ""
     title = f"feet with {1e3 * sd:g} mm noise{how}"
     return Answer(title, gait.q, robot.to_gait(track.q, gait).q, track, within)

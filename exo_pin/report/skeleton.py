@@ -132,7 +132,7 @@ def _chain(robot: Robot, gait: Gait, side: str) -> Array:
     """Trunk top, hip, knee, ankle, heel, ball, ankle `(n, 7, 3)` in the world [m]."""
     names = [f"{side}_hip_flexion", f"{side}_knee_flexion", f"{side}_ankle_inversion"]
     names += [f"{side}_{part}_{edge}" for part in ("heel", "ball") for edge in ("medial", "lateral")]
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *names), base=base)
     p = T[..., :3, 3]
     trunk = p[:, 0] + 0.3 * T[:, 0, :3, 2]

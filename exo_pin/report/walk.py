@@ -192,7 +192,7 @@ def _rates(robot: Robot, gait: Gait, rates: Motion) -> Section:
 
 
 def _feet(robot: Robot, gait: Gait) -> Section:
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
     drawings = panels.foot_paths(gait, corners)
     placed = "where its file puts it" if gait.base is not None else "still, as the support holds it"
@@ -207,7 +207,7 @@ def _feet(robot: Robot, gait: Gait) -> Section:
 
 
 def _mass(robot: Robot, gait: Gait) -> Section:
-    base = gait.base if robot.base == "fixed" else None
+    base = robot.base_of(gait)
     position = center_of_mass(robot, robot.from_gait(gait), base=base).position
     rows = [
         [name, f"{mean:.3f}", f"{1e3 * extent:.1f}"]

@@ -22,6 +22,9 @@ Array = npt.NDArray[np.float64]
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _HIPS = HIP_ORDERS["clinical"]
 
+ROUNDING = 1e-9
+"""A joint this little beyond its limit is on it [rad]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Robot:
@@ -125,7 +128,12 @@ class Robot:
             )
         return q[..., self.nq - len(self.joints) :]
 
-    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = 1e-9) -> None:
+    def outside(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> npt.NDArray[np.bool_]:
+        """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
+        angles = self.angles(q)
+        return np.asarray(~((angles >= self.lower - tolerance) & (angles <= self.upper + tolerance)))
+
+    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> None:
         """Refuse configurations (..., nq) outside the joint limits.
 
         Args:
@@ -145,6 +153,10 @@ class Robot:
         raise LimitError(
             self.joints[j], float(angles[frame, j]), float(self.lower[j]), float(self.upper[j]), where=where
         )
+
+    def base_of(self, gait: Gait) -> Array | None:
+        """What `base=` means for a gait on this robot: its base, or None where that stands in q already."""
+        return gait.base if self.base == "fixed" else None
 
     def from_gait(self, gait: Gait) -> Array:
         """The gait in this robot's own coordinates (n, nq): its joints, its hip order, its base.
