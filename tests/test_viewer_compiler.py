@@ -104,8 +104,8 @@ def test_the_reference_is_sent_with_its_own_time(robot, gait):
     reference = gait.resampled(37)
     scene = viewer.scene(robot, gait, reference=reference, reference_title="measured")
     assert scene.facts.reference == "measured"
-    assert scene.arrays["reference"].shape == (37, 12)
-    assert scene.arrays["reference_time"].shape == (37,)
+    assert scene.arrays["angles_reference"].shape == (37, 12)
+    assert scene.arrays["angles_reference_time"].shape == (37,)
 
 
 def test_scenes_are_values(scene):

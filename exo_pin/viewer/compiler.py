@@ -70,6 +70,7 @@ def scene(
         actors.append(person(robot.body, exo.links, f"{ROOT}/wearer", gait, shown.base))
         top = robot.body.stature - robot.body.leg_length
     drawings, marks = world(robot, gait, shown, exo)
+    tabs = curves.of_gait(robot, gait, reference)
     facts = Facts(
         title=title,
         subtitle=_subtitle(gait),
@@ -81,7 +82,7 @@ def scene(
         contact="contact (estimated)" if shown.estimated else "foot contact",
         reference="" if reference is None else reference_title,
         chains=tuple(actor.chain for actor in actors),
-        plots=curves.groups(robot, reference=reference is not None),
+        plots=curves.groups(tabs),
         groups=_groups(actors, marks),
         marks=marks,
         boxes=boxes(shown, top),
@@ -92,7 +93,7 @@ def scene(
         lights=furniture.PLAIN_LIGHTS,
     )
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
-    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(gait, reference)))
+    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(tabs)))
 
 
 def _subtitle(gait: Gait) -> str:

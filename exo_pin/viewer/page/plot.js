@@ -133,7 +133,7 @@ class Plot {
     const table = this.motion.arrays[name];
     if (!table) return;
     const times = this.motion.arrays[`${name}_time`] ? this.motion.arrays[`${name}_time`].data : this.motion.time;
-    pen.strokeStyle = colors[series.side];
+    pen.strokeStyle = colors[series.side] || colors.ink; // of the middle: neither side
     pen.lineWidth = dash.length ? 1.4 : 1.8;
     pen.setLineDash(dash);
     pen.globalAlpha = dash.length ? 0.75 : 1;
@@ -169,7 +169,7 @@ class Plot {
   mark(pen, x, raw, series, k) {
     const value = raw * this.spec.factor;
     const text = fixed(value, this.spec.digits) + this.spec.unit;
-    pen.fillStyle = this.colors[series.side];
+    pen.fillStyle = this.colors[series.side] || this.colors.ink;
     pen.beginPath();
     pen.arc(x, this.y.of(value), 3.2 * this.unit, 0, 7);
     pen.fill();
