@@ -82,12 +82,14 @@ def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
         y: `(n, ...)` curves; a sample is missing where it is NaN.
         limit: Longest gap that is filled, from the last sample before to the first after it [s].
     """
-    from scipy.interpolate import PchipInterpolator  # 0.3 s, needed here only
-
     t = np.asarray(time, dtype=float)
     values = np.array(y, dtype=float)
     flat = values.reshape(len(t), -1)
     before = int(np.isnan(flat).sum())
+    if not before:
+        return Filled(values, 0, 0)
+    from scipy.interpolate import PchipInterpolator  # 0.3 s, needed here only
+
     for k in range(flat.shape[1]):
         seen = np.flatnonzero(~np.isnan(flat[:, k]))
         if len(seen) in (0, 1, len(t)):

@@ -14,12 +14,14 @@ from exo_pin.formats.markers import UPS, to_z_up
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
+from exo_pin.markers.fit import human, resized
 from exo_pin.markers.reconstruct import with_sacrum
 from exo_pin.markers.scale import THIGH, Sizes, body_of, placement
 from exo_pin.robot import load_robot
 
 SIZES = Sizes(0.17, (0.86, 0.85), THIGH, (0.29, 0.29), 0.08)
 FRAMES = 18
+ROUNDED = 1e-6  # [m] a body's sizes are kept to the micrometre
 ANGLE = 1.5  # [deg] rms: the size of the leg is learnt from its markers, and 1 mm is 5 deg at a straight knee
 SIZE = 0.01  # of a length
 OPENSIM_RMS = 0.0225  # [m] OpenSim's own on the same trial
@@ -112,6 +114,15 @@ def test_missing_markers_are_named(made):
         reconstruct(trial(slow, apart, up="+z"))
     with pytest.raises(GaitError, match="nobody's"):
         reconstruct(trial(walk, {name: 50 * path for name, path in paths.items()}, up="+z"))
+
+
+def test_a_resized_robot_stands_like_one_built_in_that_size(rng):
+    chosen, other = SETS["opensim-gait2354"], SIZES._replace(leg=(0.75, 0.80), thigh=0.52)
+    built, robot = human(chosen, other), resized(human(chosen, SIZES), other)
+    q = built.neutral
+    q[7:] = rng.uniform(-0.3, 0.3, len(q) - 7)
+    links = sorted({link for link, _ in chosen.spots().values()})
+    np.testing.assert_allclose(poses(robot, q, links), poses(built, q, links), atol=ROUNDED)
 
 
 def test_names_may_differ_in_case_and_marks():

@@ -15,6 +15,8 @@ from exo_pin.robot import Robot
 Array = npt.NDArray[np.float64]
 Rows = npt.NDArray[np.int64]
 _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+_SKEW = np.array([pin.skew(axis).ravel() for axis in np.eye(3)])
+"""Takes vectors (m, 3) to their cross-product matrices (m, 9)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,25 +86,30 @@ def residual(
     for f, (index, goal) in enumerate(zip(limb.ids, goals, strict=True)):
         M = pin.updateFramePlacement(limb.model, data, index)
         J = pin.getFrameJacobian(limb.model, data, index, _AXES).reshape(6, -1)  # one joint: a vector
-        R, origin = M.rotation, M.translation
-        worst = 0.0
-        for point, target, weight in zip(goal.local, goal.p[k], goal.weight[k], strict=True):
-            if weight == 0.0:
-                continue
-            arm = R @ point
-            e = target - origin - arm
-            worst = max(worst, float(np.sqrt(e @ e)))
-            parts.append(scale[0] * weight * e)
-            slopes.append(scale[0] * weight * (J[:3] if not point.any() else J[:3] - pin.skew(arm) @ J[3:]))
-        errors[0, f] = worst
+        R = M.rotation
+        e, slope, errors[0, f] = _points(goal, k, R, M.translation, J)
+        parts.append(scale[0] * e)
+        slopes.append(scale[0] * slope)
         if goal.R is not None:
             turn = pin.log3(goal.R[k] @ R.T)
             errors[1, f] = np.sqrt(turn @ turn)
             parts.append(scale[1] * goal.rotation_weight * turn)
             slopes.append(scale[1] * goal.rotation_weight * J[3:])
-    if not parts:
-        return np.zeros(1), np.zeros((1, limb.model.nv)), errors
-    return np.concatenate(parts), np.vstack(slopes), errors
+    return np.concatenate(parts), np.concatenate(slopes), errors
+
+
+def _points(goal: Goal, k: int, R: Array, origin: Array, J: Array) -> tuple[Array, Array, float]:
+    """Weighted error (3m,) of a frame's m points, its Jacobian (3m, nv), and the largest distance."""
+    if len(goal.local) == 1 and not goal.local.any():  # a pose or a position: the frame's own origin
+        e, weight = goal.p[k, 0] - origin, goal.weight[k, 0]
+        return weight * e, weight * J[:3], float(np.sqrt(e @ e)) if weight else 0.0
+    arms, weight = goal.local @ R.T, goal.weight[k]
+    e = goal.p[k] - origin - arms
+    distance = np.sqrt(np.einsum("ij,ij->i", e, e))
+    slope = J[:3] - (arms @ _SKEW).reshape(-1, 3, 3) @ J[3:]  # a turn w moves the end of an arm by w x arm
+    slope *= weight[:, None, None]
+    worst = float((distance * (weight > 0)).max())
+    return (weight[:, None] * e).ravel(), slope.reshape(-1, J.shape[1]), worst
 
 
 def _joints_of(robot: Robot, frame: str, *, base_moves: bool) -> set[int]:

@@ -16,7 +16,7 @@ from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, load_markers
 from exo_pin.formats.markers import UPS, to_z_up
 from exo_pin.gait import Gait
-from exo_pin.markers.fit import few, human, learnt, solved
+from exo_pin.markers.fit import few, learnt, solved
 from exo_pin.markers.scale import Placement, body_of, first_sizes
 from exo_pin.markers.sets import MarkerSet, marker_set
 from exo_pin.robot import Robot
@@ -117,11 +117,10 @@ def reconstruct(
     shared = {name: path for name, path in paths.items() if name in teacher}
     sizes, pelvis = first_sizes(chosen, {name: teacher[name] for name in shared})
     model = learnt(chosen, sizes, pelvis, {name: few(teacher[name]) for name in shared})
-    robot = human(chosen, model.sizes)
     start, stop = _seen(model.places, paths)
     used = {name: path[start:stop] for name, path in paths.items()}
-    q, error, names = solved(robot, model.places, used)
-    gait = _gait(robot, q, moved, (start, stop), chosen)
+    q, error, names = solved(model.robot, model.places, used)
+    gait = _gait(model.robot, q, moved, (start, stop), chosen)
     body = body_of(model.sizes, chosen, mass=mass, sex=sex)
     return Reconstruction(gait, body, chosen.name, names, error, filled)
 
