@@ -14,6 +14,7 @@ from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
+from exo_pin.formats.torques import load_torques
 from exo_pin.gait import Gait
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "load_gait",
     "load_markers",
     "load_poses",
+    "load_torques",
     "save_gait",
     "save_poses",
 ]

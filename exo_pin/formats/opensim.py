@@ -73,6 +73,12 @@ def read_gait(path: Path, reading: Reading) -> Gait:
     return to_gait(path, time, q, _base(table, degrees, chosen), notes)
 
 
+def preset_of(path: Path) -> str:
+    """The preset whose signs a file of coordinates has, as `read_gait` finds it; errors as there."""
+    storage = read_storage(path)
+    return _sign(storage, _coordinates(storage), _in_degrees(storage))[0].name
+
+
 def write_gait(gait: Gait, path: Path) -> None:
     """Write coordinates in degrees, knee positive in flexion, with events and source in header comments."""
     names, parts = [TIME], [gait.time[:, None]]

@@ -6,6 +6,7 @@ from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.events import zeni
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
 from exo_pin.gait.spatiotemporal import NORMAL, Number, against_normal, spatiotemporal
+from exo_pin.gait.torques import Torques
 from exo_pin.gait.walk import Gait
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "Event",
     "Gait",
     "Number",
+    "Torques",
     "against_normal",
     "cycles",
     "doubts",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
 from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost
@@ -31,6 +31,7 @@ def scene(
     reference_title: str = "source",
     compare: Gait | None = None,
     compare_title: str = "compared",
+    torques: Torques | None = None,
     title: str = "12-DoF exoskeleton gait",
     support: str = "carried",
     wearer: bool = True,
@@ -46,6 +47,7 @@ def scene(
         reference_title: What the dashed curves are.
         compare: A second walk, shown as a ghost (and dashed, if there is no reference).
         compare_title: What the ghost is.
+        torques: Joint torques on the walk's clock, for a further tab of plots.
         title: Heading of the page.
         support: `"carried"`: the balance support moves the pelvis so that the standing foot stays on the
             ground; `"still"`: it holds the pelvis as in the paper.
@@ -55,6 +57,7 @@ def scene(
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such support.
+        GaitError: The torques belong to another time.
         ExoPinError: The wearer's figure is not installed.
     """
     shown = motion(robot, gait, support)
@@ -70,11 +73,11 @@ def scene(
         actors.append(person(robot.body, exo.links, f"{ROOT}/wearer", gait, shown.base))
         top = robot.body.stature - robot.body.leg_length
     drawings, marks = world(robot, gait, shown, exo)
-    tabs = curves.of_gait(robot, gait, reference)
+    tabs = curves.of_gait(robot, gait, reference, torques)
     facts = Facts(
         title=title,
         subtitle=_subtitle(gait),
-        notes=tuple(dict.fromkeys((*notes, *_notes(shown, exo, actors)))),
+        notes=tuple(dict.fromkeys((*notes, *_notes(shown, exo, actors), *curves.notes(torques)))),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,

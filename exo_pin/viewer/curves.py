@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.gait import Gait, curves
+from exo_pin.gait import Gait, Torques, curves
 from exo_pin.robot import Robot
 from exo_pin.viewer.facts import Plot, PlotGroup, Series
 
@@ -39,6 +39,7 @@ class Unit(NamedTuple):
 
 DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
 DEGREES_PER_SECOND = Unit("°/s", 180 / math.pi, 0, 60.0)
+NEWTON_METRES = Unit(" N m", 1.0, 0, 20.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,32 +82,36 @@ class Tab:
         return {self.name: self.values, **rows}
 
 
-def of_gait(robot: Robot, gait: Gait, reference: Gait | None = None) -> tuple[Tab, ...]:
-    """Angles and velocities of a walk, in the clinical order of `JOINTS`.
+def of_gait(
+    robot: Robot, gait: Gait, reference: Gait | None = None, torques: Torques | None = None
+) -> tuple[Tab, ...]:
+    """Angles, velocities and (when given) torques of a walk, in the clinical order of `JOINTS`.
 
     Args:
         robot: Whose limits are drawn. Joints that it locks stand still and have none.
         gait: The walk that is shown.
         reference: The walk of the dashed curves.
+        torques: On the walk's own clock.
+
+    Raises:
+        GaitError: The torques belong to another time.
     """
     if not set(JOINTS) <= set(robot.joints):
         gait = robot.to_gait(robot.from_gait(gait), gait)
-    own = {joint: k for k, joint in enumerate(robot.joints)}
-
-    def limits(values: Array, none: float) -> Array:
-        return np.array([values[own[joint]] if joint in own else none for joint in JOINTS])
-
-    lower, upper, speed = (
-        limits(values, none)
-        for values, none in ((robot.lower, -np.inf), (robot.upper, np.inf), (robot.velocity, np.inf))
-    )
+    limits = robot.upper, -robot.lower, robot.velocity, robot.effort
+    upper, lower, speed, effort = (_clinical(robot, limit) for limit in limits)
     angles, speeds, time = None, None, None
     if reference is not None:
         angles, speeds, time = reference.q, reference.dq, reference.time - reference.time[0]
-    return (
-        Tab("Angles", "angles", JOINTS, gait.q, lower, upper, DEGREES, angles, time),
+    tabs = (
+        Tab("Angles", "angles", JOINTS, gait.q, -lower, upper, DEGREES, angles, time),
         Tab("Velocities", "speeds", JOINTS, gait.dq, -speed, speed, DEGREES_PER_SECOND, speeds, time),
     )
+    if torques is None:
+        return tabs
+    known = [JOINTS.index(joint) for joint in torques.joints]
+    tau, most = torques.at(gait.time)[:, known], effort[known]
+    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -most, most, NEWTON_METRES))
 
 
 def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None = None) -> tuple[Tab, ...]:
@@ -142,6 +147,16 @@ def arrays(tabs: Iterable[Tab]) -> dict[str, Array]:
     return {name: rows for tab in tabs for name, rows in tab.arrays.items()}
 
 
+def notes(torques: Torques | None) -> list[str]:
+    """Where the torques come from and what their sign means."""
+    if torques is None:
+        return []
+    whose = f" ({torques.source})" if torques.source else ""
+    return [
+        f"Torques{whose}: positive drives the joint the way its name says; the limits are the actuators'."
+    ]
+
+
 def pairs(joints: Sequence[str]) -> dict[str, dict[str, int]]:
     """Movement -> side -> column: joints whose names differ in the side alone belong together.
 
@@ -154,6 +169,12 @@ def pairs(joints: Sequence[str]) -> dict[str, dict[str, int]]:
         movement = joint if match is None else (joint[: match.start()] + joint[match.end() :]).strip("_")
         found.setdefault(movement.replace("__", "_"), {})[side] = column
     return {name: found[name] for name in (*FIRST, *found) if name in found}
+
+
+def _clinical(robot: Robot, limit: Array) -> Array:
+    """Limits `(J,)` of the robot's joints in the order of `JOINTS`; infinite where it has no such joint."""
+    own = dict(zip(robot.joints, limit, strict=True))
+    return np.array([own.get(joint, np.inf) for joint in JOINTS])
 
 
 def _turns(robot: Robot, joint: str) -> bool:

@@ -138,8 +138,12 @@ class Plot {
     pen.setLineDash(dash);
     pen.globalAlpha = dash.length ? 0.75 : 1;
     pen.beginPath();
+    let down = false; // a canvas would draw across what is not a number
     for (let i = 0; i < times.length; i++) {
-      pen.lineTo(this.x.of(times[i]), this.y.of(table.data[i * table.width + series.column] * this.spec.factor));
+      const value = table.data[i * table.width + series.column] * this.spec.factor;
+      if (down) pen.lineTo(this.x.of(times[i]), this.y.of(value));
+      else pen.moveTo(this.x.of(times[i]), this.y.of(value));
+      down = !Number.isNaN(value);
     }
     if (this.motion.periodic) {
       pen.lineTo(this.x.of(this.motion.duration), this.y.of(table.data[series.column] * this.spec.factor));

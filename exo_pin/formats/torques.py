@@ -1,0 +1,106 @@
+"""Files of joint torques: OpenSim's inverse dynamics, and a table with our joints' names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import FormatError, GaitError
+from exo_pin.formats.csvtable import read_csv
+from exo_pin.formats.notes import read
+from exo_pin.formats.opensim import KNEES, LEGS
+from exo_pin.formats.presets import OPENSIM, preset
+from exo_pin.formats.storage import read_storage
+from exo_pin.formats.table import Array, Table
+from exo_pin.gait.torques import Torques
+
+UNIT = "_torque_nm"
+"""Our columns: `left_knee_flexion_torque_nm`."""
+
+ENDING = "_moment"
+"""OpenSim's: a coordinate's generalised force, `knee_angle_l_moment`, where the coordinate is an angle."""
+
+
+def load_torques(path: str | Path, *, preset: str | None = None) -> Torques:
+    """Read joint torques; the signs become ours: positive drives the joint the way its name says.
+
+    - `.sto`, `.mot`: OpenSim's inverse dynamics, columns `<coordinate>_moment` [N m]. A generalised force is
+      positive along its coordinate, so only a knee that is negative in flexion is turned; the file does not
+      say which model it is of, so a preset must.
+    - `.csv`: a column `time_s` and columns `<joint>_torque_nm` [N m], as many joints as are known.
+
+    Args:
+        path: The file.
+        preset: The OpenSim model's sign convention, e.g. `"opensim-gait2392"`.
+
+    Raises:
+        FormatError: The file cannot be read; with file, line, reason and what would be accepted.
+        UnknownNameError: There is no such preset.
+    """
+    path = Path(path)
+    kind = path.suffix.lower()
+    if kind not in READERS:
+        raise FormatError(path, f"unknown kind of file {path.suffix!r}; torques end in {', '.join(READERS)}")
+    return READERS[kind](path, preset)
+
+
+def _read_opensim(path: Path, name: str | None) -> Torques:
+    table = read_storage(path).table
+    line = table.lines[0] - 1
+    columns = {joint: f"{coordinate}{ENDING}" for joint, coordinate in zip(JOINTS, LEGS, strict=True)}
+    here = {joint: column for joint, column in columns.items() if column in table.names}
+    if "time" not in table.names or not here:
+        raise FormatError(
+            path,
+            f"no joint moments; expected time and columns like {columns['left_knee_flexion']}",
+            line=line,
+        )
+    knees = {joint for joint, coordinate in zip(JOINTS, LEGS, strict=True) if coordinate in KNEES}
+    if name is None and knees & set(here):
+        raise FormatError(
+            path,
+            "inverse dynamics do not tell the sign of the model's knee; name the model with a preset: "
+            + ", ".join(OPENSIM),
+        )
+    knee = 1 if name is None else preset(name, OPENSIM).knee
+    tau = _filled(table, here)
+    tau[:, [JOINTS.index(joint) for joint in sorted(knees)]] *= knee
+    how = "" if name is None else f" of {name}"
+    return _torques(path, table.times("time"), tau, f"{path.name}, OpenSim inverse dynamics{how}")
+
+
+def _read_csv(path: Path, name: str | None) -> Torques:
+    if name not in (None, "exo_pin"):
+        raise FormatError(path, f"preset {name!r} is not for this kind of file: its columns tell the signs")
+    columns = {joint: f"{joint}{UNIT}" for joint in JOINTS}
+    table, groups, comments = read_csv(path, ("time_s",), {column: [column] for column in columns.values()})
+    if not groups:
+        raise FormatError(path, f"no torques; expected columns like {columns['left_knee_flexion']}")
+    here = {joint: column for joint, column in columns.items() if column in groups}
+    said = read(path, comments).source
+    return _torques(path, table.times("time_s"), _filled(table, here), said or path.name)
+
+
+def _filled(table: Table, columns: dict[str, str]) -> Array:
+    """The table's columns in the order of `JOINTS`, NaN where there is none."""
+    tau = np.full((len(table.values), len(JOINTS)), np.nan)
+    tau[:, [JOINTS.index(joint) for joint in columns]] = table.columns(columns.values())
+    return tau
+
+
+def _torques(path: Path, time: Array, tau: Array, source: str) -> Torques:
+    try:
+        return Torques(time, tau, source=source)
+    except GaitError as error:
+        raise FormatError(path, str(error)) from error
+
+
+READERS: dict[str, Callable[[Path, str | None], Torques]] = {
+    ".sto": _read_opensim,
+    ".mot": _read_opensim,
+    ".csv": _read_csv,
+}
+"""File name ending -> reader."""

@@ -1,0 +1,94 @@
+"""Joint torques as data: what acts at the joints of a walk, computed or measured elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import GaitError
+from exo_pin.gait.checks import check_time, frozen
+
+Array = NDArray[np.float64]
+
+LARGEST = 3000.0
+"""No joint of a leg bears more [N m]; a larger number is nearly always N mm taken for N m."""
+
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class Torques:
+    """Torques of the joints over time, in the order of `JOINTS`.
+
+    The sign is the joint's: a positive torque drives the joint the way its name says (`knee_flexion`: it
+    bends the knee), so torque times joint velocity is the power that the joint gives. These are the torques
+    of muscles or actuators ("internal moments"); a load's moment about the joint is their negative.
+
+    Attributes:
+        time: `(n,)` strictly increasing [s], on the clock of the walk that they belong to.
+        tau: `(n, 12)` [N m]; a column of NaN: the torque of that joint is not known.
+        source: Where the numbers come from, in words.
+
+    Raises:
+        GaitError: If shapes, time or torques are unusable; the message says which and where.
+    """
+
+    time: Array
+    tau: Array
+    source: str = ""
+
+    def __init__(self, time: ArrayLike, tau: ArrayLike, *, source: str = "") -> None:
+        put = object.__setattr__  # the dataclass is frozen for everyone else
+        put(self, "time", frozen(time, "time"))
+        put(self, "tau", frozen(tau, "tau"))
+        put(self, "source", str(source))
+        check_time(self.time, periodic=False)
+        _check(self.tau, len(self.time))
+
+    def __repr__(self) -> str:
+        return (
+            f"<Torques {len(self.time)} samples, {self.time[0]:.3f} .. {self.time[-1]:.3f} s, "
+            f"{len(self.joints)} joints, source={self.source!r}>"
+        )
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints whose torques are known."""
+        return tuple(name for name, column in zip(JOINTS, self.tau.T, strict=True) if np.isfinite(column[0]))
+
+    def at(self, time: ArrayLike) -> Array:
+        """Torques `(m, 12)` at times `(m,)`, linear between samples; NaN outside them [N m].
+
+        Raises:
+            GaitError: None of the times lies within the samples: the two clocks differ.
+        """
+        times = np.asarray(time, dtype=float)
+        rounding = 1e-6 + 1e-3 * float(np.diff(self.time).min())  # files round their times
+        inside = (times >= self.time[0] - rounding) & (times <= self.time[-1] + rounding)
+        if not inside.any():
+            raise GaitError(
+                f"the torques reach from {self.time[0]:g} to {self.time[-1]:g} s, "
+                f"the walk from {times[0]:g} to {times[-1]:g} s; they must share a clock"
+            )
+        rows = np.column_stack([np.interp(times, self.time, column) for column in self.tau.T])
+        rows[~inside] = np.nan
+        return rows
+
+
+def _check(tau: Array, n: int) -> None:
+    """Raises `GaitError` unless `tau` is `(n, 12)`, plausible, and known or unknown column by column."""
+    if tau.shape != (n, len(JOINTS)):
+        raise GaitError(
+            f"tau has shape {tau.shape}, expected ({n}, {len(JOINTS)}): a row per time, columns as JOINTS"
+        )
+    unknown = np.isnan(tau).all(axis=0)
+    if unknown.all():
+        raise GaitError("tau holds no torque: every joint is NaN")
+    bad = ~(np.abs(tau) <= LARGEST) & ~unknown
+    if bad.any():
+        row, k = np.argwhere(bad)[0]
+        why = (
+            "N mm given as N m?" if abs(tau[row, k]) > LARGEST else "a joint is known in every row or in none"
+        )
+        raise GaitError(f"torque of {JOINTS[k]} in row {row} is {tau[row, k]:g} N m: {why}")
