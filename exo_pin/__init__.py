@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import markers as markers
     from exo_pin import report as report
     from exo_pin import retarget as retarget
+    from exo_pin import study as study
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
     from exo_pin.anatomy import JOINTS as JOINTS
@@ -36,9 +37,11 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin.formats import Markers as Markers
     from exo_pin.formats import load_gait as load_gait
     from exo_pin.formats import load_markers as load_markers
+    from exo_pin.formats import load_torques as load_torques
     from exo_pin.formats import save_gait as save_gait
     from exo_pin.gait import Event as Event
     from exo_pin.gait import Gait as Gait
+    from exo_pin.gait import Torques as Torques
     from exo_pin.gait import normative_gait as normative_gait
     from exo_pin.kinematics import poses as poses
     from exo_pin.robot import Robot as Robot
@@ -50,12 +53,12 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "
-    "markers report retarget viewer",
+    "markers report retarget study viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",
-    "exo_pin.formats": "Markers load_gait load_markers save_gait",
-    "exo_pin.gait": "Event Gait normative_gait",
+    "exo_pin.formats": "Markers load_gait load_markers load_torques save_gait",
+    "exo_pin.gait": "Event Gait Torques normative_gait",
     "exo_pin.kinematics": "poses",
     "exo_pin.robot": "Robot load_robot load_urdf",
     "exo_pin.viewer": "view",

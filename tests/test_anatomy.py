@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -152,6 +153,14 @@ def test_a_bad_body_file_is_a_format_error_that_names_it(tmp_path, text):
     path.write_text(text)
     with pytest.raises(FormatError, match=r"bad\.toml"):
         Body.load(path)
+
+
+def test_a_body_goes_to_another_process_whole():
+    body = Body.from_stature(1.6, left_thigh=0.4, limits={"left_knee_flexion": (0.0, 1.9)})
+    again = pickle.loads(pickle.dumps(body))
+    assert again == body
+    with pytest.raises(TypeError):
+        again.limits["left_knee_flexion"] = (0, 1)
 
 
 def test_a_missing_body_file_is_a_format_error(tmp_path):

@@ -5,6 +5,7 @@ import functools
 import io
 import json
 import logging
+import pickle
 import warnings
 import xml.etree.ElementTree as ET
 
@@ -32,6 +33,12 @@ all_devices = pytest.mark.parametrize("name", DEVICES)
 def test_the_motors_are_those_that_the_literature_counts():
     assert {name: DEVICES[name].motors for name in COUNTS} == COUNTS
     assert DEVICES["exo12"].motors == 12
+
+
+@all_devices
+def test_a_device_goes_to_another_process_whole(name):
+    again = pickle.loads(pickle.dumps(DEVICES[name]))
+    assert repr(again) == repr(DEVICES[name])
 
 
 @all_devices

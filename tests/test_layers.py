@@ -16,6 +16,7 @@ FLOORS = [
     {"kinematics", "dynamics"},
     {"ik"},
     {"crosscheck", "edit", "markers", "compare", "feasible", "retarget", "walking"},
+    {"study"},
     {"viewer", "report"},
     {"cli"},
     {"__init__", "__main__"},
@@ -28,8 +29,9 @@ ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "argparse": {"cli"},
     "rich": {"cli"},
     "yourdfpy": {"crosscheck"},
+    "joblib": {"study"},
 }
-HEAVY = {"meshcat", "yourdfpy", "matplotlib", "scipy", "ezc3d", "tornado", "PIL"}
+HEAVY = {"meshcat", "yourdfpy", "matplotlib", "scipy", "ezc3d", "tornado", "PIL", "joblib"}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -147,6 +148,11 @@ class Body:
             raise DescriptionError(f"wearer is {self.wearer!r}; true or false is accepted")
         self._check_proportions()
         object.__setattr__(self, "limits", MappingProxyType(checked_limits(self.limits)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled by its fields, since a read-only mapping cannot be: for work in other processes."""
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return functools.partial(type(self), **(values | {"limits": dict(self.limits)})), ()
 
     def _check_proportions(self) -> None:
         for side, leg in zip(SIDES, self.legs, strict=True):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Any
 
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
 from exo_pin.devices.choices import CHOSEN, RANGES, Actuator
@@ -76,6 +78,12 @@ class Device:
         complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
         object.__setattr__(self, "actuators", MappingProxyType(complete))
         object.__setattr__(self, "ranges", MappingProxyType(_checked_ranges(self.ranges)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled by its fields, since a read-only mapping cannot be: for work in other processes."""
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        plain = {name: dict(values[name]) for name in ("actuators", "ranges")}
+        return functools.partial(type(self), **(values | plain)), ()
 
     def _check_pelvis(self) -> None:
         if isinstance(self.pelvis, str):

@@ -1,0 +1,24 @@
+"""Many walks on many devices: a plan, solved in parallel, kept in a tidy table that can be continued.
+
+`run(plan(...), "study.csv", jobs=2)` is the whole of it; `jobs` and the back end are joblib's.
+"""
+
+from exo_pin.study.case import Case, Outcome, solve
+from exo_pin.study.plan import plan, recordings, statures
+from exo_pin.study.sheet import COLUMNS, Row, load, save
+from exo_pin.study.work import Study, run
+
+__all__ = [
+    "COLUMNS",
+    "Case",
+    "Outcome",
+    "Row",
+    "Study",
+    "load",
+    "plan",
+    "recordings",
+    "run",
+    "save",
+    "solve",
+    "statures",
+]

@@ -1,0 +1,190 @@
+"""A case: one walk on one body under one set of conditions, for several devices; what a worker is given."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from exo_pin.anatomy import Body
+from exo_pin.compare import PHASES, Conditions, Loss, compare
+from exo_pin.compare.motion import GRANTED
+from exo_pin.devices import Device
+from exo_pin.errors import ExoPinError
+from exo_pin.files import read_bytes
+from exo_pin.formats import FORMATS, MARKER_FORMATS, load_gait, load_markers
+from exo_pin.gait import Gait, doubts, normative_gait
+from exo_pin.study.sheet import MOTIONS, Row
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+_DIGITS = 16
+"""Hexadecimal digits of a fingerprint: a collision among a million rows is a matter of 1 in 10 million."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Case:
+    """One walk on one body under one set of conditions.
+
+    Attributes:
+        gait: A speed of the normative walk, or what a recording is called.
+        path: File of the recording; empty for a speed.
+        body: Who walks; None: the body that a marker trial is solved on, else `Body.from_stature()`.
+        devices: What is put through the walk.
+        conditions: What the devices are granted.
+        preset: Sign convention of a recording that does not tell it; None: find out.
+    """
+
+    gait: str
+    body: Body | None
+    devices: tuple[Device, ...]
+    conditions: Conditions = GRANTED
+    path: str = ""
+    preset: str | None = None
+
+    @cached_property
+    def fingerprints(self) -> tuple[str, ...]:
+        """One for each device: equal if and only if everything that its rows depend on is equal.
+
+        Raises:
+            FormatError: The recording cannot be read.
+        """
+        from exo_pin import __version__
+
+        walk = hashlib.sha256(read_bytes(self.path)).hexdigest() if self.path else ""
+        body = None if self.body is None else _plain(self.body)
+        shared = (__version__, self.gait, walk, self.preset, body, _plain(self.conditions))
+        return tuple(
+            hashlib.sha256(repr((shared, _plain(device))).encode()).hexdigest()[:_DIGITS]
+            for device in self.devices
+        )
+
+    def only(self, devices: tuple[Device, ...]) -> Case:
+        """The same case for some of its devices."""
+        return dataclasses.replace(self, devices=devices)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a case.
+
+    Attributes:
+        case: The case.
+        rows: Two for each device, the best motion and the plain copy; none if it failed.
+        failure: Why it failed, in one line; empty if it did not.
+    """
+
+    case: Case
+    rows: tuple[Row, ...] = ()
+    failure: str = ""
+
+
+def solve(case: Case) -> Outcome:
+    """Put the devices through the walk.
+
+    Whatever goes wrong with a recording is told in the outcome, so that one bad file does not stop the rest.
+    """
+    try:
+        fingerprints = case.fingerprints
+        gait, body = _walk(case)
+        compared = compare(gait, case.devices, body, conditions=case.conditions)
+    except ExoPinError as error:
+        return Outcome(case, failure=_line(error))
+    except Exception as error:  # a reader's bug: it shall cost this file, not the night's work
+        return Outcome(
+            case, failure=f"{case.path or case.gait}: unexpected {type(error).__name__}: {_line(error)}"
+        )
+    of_device = dict(zip((device.name for device in case.devices), fingerprints, strict=True))
+    doubtful = "; ".join(doubts(gait))
+    pairs = zip(compared.best, compared.projected, strict=True)
+    rows = [
+        _row(case, loss, motion, doubtful, of_device[loss.device.name])
+        for pair in pairs
+        for motion, loss in zip(MOTIONS, pair, strict=True)
+    ]
+    return Outcome(case, tuple(rows))
+
+
+def _walk(case: Case) -> tuple[Gait, Body]:
+    """The walk and who walks."""
+    if not case.path:
+        body = case.body or Body.from_stature()
+        return normative_gait(case.gait, leg_length=body.leg_length), body
+    if _is_markers(Path(case.path)):
+        from exo_pin.markers import load_walk
+
+        trial = load_walk(case.path)
+        return trial.gait, case.body or trial.body
+    return load_gait(case.path, preset=case.preset), case.body or Body.from_stature()
+
+
+def _is_markers(path: Path) -> bool:
+    """Whether a file holds markers and no angles of its own."""
+    if path.suffix.lower() not in MARKER_FORMATS:
+        return False
+    from exo_pin.formats.c3d import has_angles
+
+    return path.suffix.lower() not in FORMATS or not has_angles(load_markers(path))
+
+
+def _row(case: Case, loss: Loss, motion: str, doubtful: str, inputs: str) -> Row:
+    from exo_pin import __version__
+
+    body = loss.walk.robot.body
+    assert body is not None  # compare made it
+    gait, facts = loss.walk.gait, loss.facts()
+    phases = {
+        f"{phase.replace(' ', '_').replace('-', '_')}_rms_mm": _nan(facts["sole_error_by_phase_mm"][phase])
+        for phase in PHASES
+    }
+    return Row(
+        gait=case.gait,
+        source=gait.source,
+        samples=len(gait),
+        duration_s=float(gait.duration),
+        stature_m=body.stature,
+        mass_kg=body.mass,
+        sex=body.sex,
+        device=loss.device.name,
+        motors=loss.device.motors,
+        pelvis=case.conditions.pelvis,
+        passive=case.conditions.passive,
+        motion=motion,
+        sole_rms_mm=facts["sole_error_mm"]["rms"],
+        sole_max_mm=facts["sole_error_mm"]["max"],
+        foot_rms_mm=facts["position_error_mm"]["rms"],
+        foot_max_mm=facts["position_error_mm"]["max"],
+        foot_rms_deg=facts["rotation_error_deg"]["rms"],
+        foot_max_deg=facts["rotation_error_deg"]["max"],
+        **phases,
+        step_width_mm=_nan(facts["step_width_mm"]),
+        step_width_lost_mm=_nan(facts["step_width_lost_mm"]),
+        clearance_mm=_nan(facts["clearance_mm"]),
+        clearance_lost_mm=_nan(facts["clearance_lost_mm"]),
+        hip_change_deg=facts["angle_change_deg"]["hip_flexion"],
+        knee_change_deg=facts["angle_change_deg"]["knee_flexion"],
+        com_rms_mm=facts["com_error_mm"],
+        doubts=doubtful,
+        version=__version__,
+        inputs=inputs,
+    )
+
+
+def _plain(record: DataclassInstance) -> dict[str, Any]:
+    """A record's fields as values whose text is the same in every process."""
+    values = {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in values.items()}
+
+
+def _nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def _line(error: Exception) -> str:
+    return " ".join(str(error).split())

@@ -1,0 +1,159 @@
+"""The table of a study: one row for each walk, body, device, condition and way of moving; as CSV."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exo_pin.errors import FormatError
+from exo_pin.files import read_text, write_text
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """What one device loses of one walk on one body; the unit stands at the end of a name.
+
+    Attributes:
+        gait: Name of the speed, or path of the recording within its folder.
+        source: Where the walk's numbers come from.
+        samples: Of the walk.
+        duration_s: Of the walk; a periodic walk's stride time.
+        stature_m: Of the body.
+        mass_kg: Of the body, without the device.
+        sex: Whose segment masses.
+        device: Name of the device.
+        motors: Number of its motors.
+        pelvis: `"recorded"`: it moves as the walker's; `"device"`: as the device holds it.
+        passive: Passive joints: `"held"` or `"released"`.
+        motion: `"best"`: the least-squares best towards the recorded soles; `"copy"`: the plain copy.
+        sole_rms_mm: Distance of the soles' corners from the recorded ones, root mean square.
+        sole_max_mm: The same, largest (root mean square of the four corners of a foot).
+        foot_rms_mm: Distance of the foot frames, root mean square.
+        foot_max_mm: The same, largest.
+        foot_rms_deg: Angle between the feet, root mean square.
+        foot_max_deg: The same, largest.
+        loading_response_rms_mm: The sole's error in this phase of the foot's cycle; NaN without events.
+        mid_stance_rms_mm: Likewise.
+        terminal_stance_rms_mm: Likewise.
+        pre_swing_rms_mm: Likewise.
+        initial_swing_rms_mm: Likewise.
+        mid_swing_rms_mm: Likewise.
+        terminal_swing_rms_mm: Likewise.
+        step_width_mm: Of the device, mean at heel strikes; NaN without events.
+        step_width_lost_mm: Recorded minus the device's.
+        clearance_mm: Least height of the swinging sole over the standing one in mid swing.
+        clearance_lost_mm: Recorded minus the device's.
+        hip_change_deg: Largest difference of hip flexion from the angle asked for.
+        knee_change_deg: The same of knee flexion.
+        com_rms_mm: Distance of the centre of mass from the recorded walk's, root mean square.
+        doubts: Reasons to doubt how the recording was read; empty for a usual walk.
+        version: Of exo_pin.
+        inputs: Fingerprint of version, walk, body, device and conditions: equal inputs, equal rows.
+    """
+
+    gait: str
+    source: str
+    samples: int
+    duration_s: float
+    stature_m: float
+    mass_kg: float
+    sex: str
+    device: str
+    motors: int
+    pelvis: str
+    passive: str
+    motion: str
+    sole_rms_mm: float
+    sole_max_mm: float
+    foot_rms_mm: float
+    foot_max_mm: float
+    foot_rms_deg: float
+    foot_max_deg: float
+    loading_response_rms_mm: float
+    mid_stance_rms_mm: float
+    terminal_stance_rms_mm: float
+    pre_swing_rms_mm: float
+    initial_swing_rms_mm: float
+    mid_swing_rms_mm: float
+    terminal_swing_rms_mm: float
+    step_width_mm: float
+    step_width_lost_mm: float
+    clearance_mm: float
+    clearance_lost_mm: float
+    hip_change_deg: float
+    knee_change_deg: float
+    com_rms_mm: float
+    doubts: str
+    version: str
+    inputs: str
+
+
+COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
+"""Names of the columns, in order."""
+
+MOTIONS = ("best", "copy")
+"""The two rows of every device on every walk."""
+
+_KINDS: Mapping[str, Callable[[str], Any]] = {
+    "str": str,
+    "int": int,
+    "float": lambda cell: float(cell) if cell else math.nan,
+}
+_READ = tuple(_KINDS[str(field.type)] for field in dataclasses.fields(Row))
+
+
+def text(rows: Iterable[Row], *, heading: bool = True) -> str:
+    """Rows as CSV; numbers in the shortest form that reads back as the same number, an empty cell for NaN."""
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    if heading:
+        writer.writerow(COLUMNS)
+    writer.writerows([_cell(getattr(row, name)) for name in COLUMNS] for row in rows)
+    return file.getvalue()
+
+
+def save(rows: Iterable[Row], path: str | Path) -> None:
+    """Write rows as CSV, all or nothing.
+
+    Raises:
+        FormatError: The file cannot be written.
+    """
+    write_text(path, text(rows))
+
+
+def load(path: str | Path, *, torn: bool = False) -> list[Row]:
+    """Read rows that `save` has written.
+
+    Args:
+        path: The file.
+        torn: Whether the last line may be unfinished, as a killed study leaves it; it is then left out.
+
+    Raises:
+        FormatError: The file cannot be read, or is no table of a study.
+    """
+    content = read_text(path)
+    if torn:
+        content = content[: content.rfind("\n") + 1]
+    lines = csv.reader(io.StringIO(content))
+    if tuple(next(lines, ())) != COLUMNS and not (torn and not content):
+        raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
+    rows = []
+    for line in lines:
+        try:
+            values = [read(cell) for read, cell in zip(_READ, line, strict=True)]
+        except ValueError as error:
+            raise FormatError(path, f"not a row of a study: {error}", line=lines.line_num) from None
+        rows.append(Row(**dict(zip(COLUMNS, values, strict=True))))
+    return rows
+
+
+def _cell(value: str | int | float) -> str:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else repr(value)
+    return " ".join(str(value).split())  # one row is one line, so that a torn one is seen

@@ -1,0 +1,178 @@
+"""The work of a study: cases in parallel by joblib, kept as they finish, so that it can be continued."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exo_pin.errors import DescriptionError, FormatError
+from exo_pin.files import write_text
+from exo_pin.study import sheet
+from exo_pin.study.case import Case, Outcome, solve
+from exo_pin.study.sheet import MOTIONS, Row
+
+Progress = Callable[[Iterable[Outcome], int], Iterable[Outcome]]
+"""Wraps the outcomes as they come in; told how many there will be."""
+
+_AT_ONCE = 32
+"""Cases between two savings, with a back end that cannot give back one by one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What came out.
+
+    Attributes:
+        rows: In the order of the plan: case by case, device by device, the best motion and the plain copy.
+        failures: By name of the recording (or speed): why it has no rows.
+        computed: Rows of this run.
+        kept: Rows of earlier runs.
+    """
+
+    rows: tuple[Row, ...]
+    failures: dict[str, str]
+    computed: int
+    kept: int
+
+
+def run(
+    cases: Sequence[Case],
+    path: str | Path | None = None,
+    *,
+    jobs: int | None = None,
+    restart: bool = False,
+    progress: Progress = lambda outcomes, _: outcomes,
+) -> Study:
+    """Do a study, or go on with it.
+
+    Finished cases are appended to `PATH.part` at once; when all are done the table is written to `path`, in
+    the order of the plan, and the part is removed. Rows that either file holds are not computed again.
+
+    Args:
+        cases: The plan.
+        path: The table (.csv); None: nothing is kept.
+        jobs: Workers, as joblib counts them (-1: one per core). None: one, or what
+            `joblib.parallel_config` says, which also names the back end.
+        restart: Leave the rows of an earlier study of this name behind.
+        progress: Wraps the outcomes, e.g. in a progress bar.
+
+    Raises:
+        DescriptionError: The table holds rows of another plan or version.
+        FormatError: The table is no study's, or cannot be written.
+    """
+    cases, failures = _readable(cases)
+    wanted = {mark for case in cases for mark in case.fingerprints}
+    done = {} if path is None else _kept(Path(path), wanted, restart)
+    kept = len(done) * len(MOTIONS)
+    with _draft(path, done) as note:
+        for outcome in progress(_solved(todo := _todo(cases, done), jobs), len(todo)):
+            if outcome.failure:
+                failures[outcome.case.gait] = outcome.failure
+            note(outcome.rows)
+            for row in outcome.rows:
+                done.setdefault(row.inputs, {})[row.motion] = row
+    rows = tuple(
+        done[mark][motion]
+        for case in cases
+        for mark in case.fingerprints
+        for motion in MOTIONS
+        if mark in done
+    )
+    if path is not None and rows:
+        sheet.save(rows, path)
+        part(path).unlink(missing_ok=True)
+    return Study(rows, failures, len(rows) - kept, kept)
+
+
+def part(path: str | Path) -> Path:
+    """Where an unfinished study keeps its rows."""
+    return Path(f"{path}.part")
+
+
+def _readable(cases: Iterable[Case]) -> tuple[list[Case], dict[str, str]]:
+    """Cases whose file can be read, and why the others cannot."""
+    fine, failures = [], {}
+    for case in cases:
+        try:
+            _ = case.fingerprints
+        except FormatError as error:
+            failures[case.gait] = str(error)
+        else:
+            fine.append(case)
+    return fine, failures
+
+
+def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Row]]:
+    """Rows of earlier runs, by fingerprint and motion; only whole ones."""
+    rows = [
+        row for file in (path, part(path)) if file.exists() for row in sheet.load(file, torn=file != path)
+    ]
+    if restart:
+        return {}
+    found: dict[str, dict[str, Row]] = {}
+    for row in rows:
+        if row.inputs not in wanted:
+            raise DescriptionError(
+                f"{path} holds another study (exo_pin {row.version}: {row.device}, {row.gait}, "
+                f"{row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to go on with it repeat "
+                "its options, else choose another file, or restart it"
+            )
+        found.setdefault(row.inputs, {})[row.motion] = row
+    return {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
+
+
+def _todo(cases: Iterable[Case], done: dict[str, Any]) -> list[Case]:
+    """The cases with the devices that are not done yet."""
+    rest = []
+    for case in cases:
+        pairs = zip(case.devices, case.fingerprints, strict=True)
+        devices = tuple(device for device, mark in pairs if mark not in done)
+        if devices:
+            rest.append(case if devices == case.devices else case.only(devices))
+    return rest
+
+
+@contextlib.contextmanager
+def _draft(
+    path: str | Path | None, done: dict[str, dict[str, Row]]
+) -> Iterator[Callable[[Sequence[Row]], None]]:
+    """A function that appends rows to the part, which begins with what is done.
+
+    Raises:
+        FormatError: It cannot be written.
+    """
+    if path is None:
+        yield lambda rows: None
+        return
+    file = part(path)
+    write_text(file, sheet.text(row for rows in done.values() for row in rows.values()))
+
+    def note(rows: Sequence[Row]) -> None:
+        try:
+            with file.open("a", encoding="utf-8") as lines:
+                lines.write(sheet.text(rows, heading=False))
+        except OSError as error:
+            raise FormatError(file, f"cannot be written: {error.strerror}") from error
+
+    yield note
+
+
+def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
+    """The outcomes as they are ready, in any order."""
+    from joblib import Parallel, delayed
+
+    tasks = [delayed(solve)(case) for case in cases]
+    # The cases of one body in a row go to one worker, which then describes each device only once.
+    together = len({case.gait for case in cases if not case.path}) or 1
+    try:
+        parallel = Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=together)
+    except ValueError:  # a back end that gives back only all at once
+        parallel = Parallel(n_jobs=jobs, batch_size=together)
+        for k in range(0, len(tasks), _AT_ONCE):
+            yield from parallel(tasks[k : k + _AT_ONCE])
+        return
+    with contextlib.closing(parallel(tasks)) as outcomes:  # an interrupted study stops its workers
+        yield from outcomes
