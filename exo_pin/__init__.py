@@ -22,7 +22,6 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import markers as markers
     from exo_pin import report as report
     from exo_pin import retarget as retarget
-    from exo_pin import study as study
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
     from exo_pin.anatomy import JOINTS as JOINTS
@@ -53,7 +52,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "
-    "markers report retarget study viewer",
+    "markers report retarget viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",

@@ -7,7 +7,7 @@ from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show
+from exo_pin.cli import options, show, torques
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--speed", type=float, default=1.0, metavar="F", help="playback speed 0.1 .. 2 (default: 1)"
     )
     parser.add_argument("--compare", metavar="GAIT", help="a second walk, shown as a ghost beside the first")
+    torques.add(parser)
     parser.add_argument(
         "--support",
         choices=("carried", "still"),
@@ -58,6 +59,7 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     from exo_pin import viewer
     from exo_pin.robot import load_robot
 
+    curves = torques.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
     name = Path(args.gait).name
@@ -75,6 +77,7 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         reference=gait,
         compare=second,
         compare_title=Path(args.compare or "").name,
+        torques=curves,
         title=f"{name} - exo_pin",
         support=args.support,
         notes=notes,
