@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exo_pin.anatomy import FEET, SIDES
 from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
 from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost
-from exo_pin.viewer.facts import Facts, Group, Marks, Scene
+from exo_pin.viewer.facts import Facts, Grip, Group, Marks, Scene
 from exo_pin.viewer.links import Linkage, linkage
 from exo_pin.viewer.motion import Motion, motion
 from exo_pin.viewer.wearer import wearer as person
@@ -85,6 +86,7 @@ def scene(
         contact="contact (estimated)" if shown.estimated else "foot contact",
         reference="" if reference is None else reference_title,
         chains=tuple(actor.chain for actor in actors),
+        grips=tuple(Grip(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in exo.links),
         plots=curves.groups(tabs),
         groups=_groups(actors, marks),
         marks=marks,
@@ -96,7 +98,7 @@ def scene(
         lights=furniture.PLAIN_LIGHTS,
     )
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
-    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(tabs)))
+    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(tabs)), robot)
 
 
 def _subtitle(gait: Gait) -> str:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.viewer.links import Turn
 from exo_pin.viewer.protocol import Command
+
+if TYPE_CHECKING:
+    from exo_pin.robot import Robot
 
 Interval = tuple[float, float]
 """From, to [s] on the page's clock, which starts at 0."""
@@ -82,6 +85,14 @@ class Group:
 
 
 @dataclass(frozen=True)
+class Grip:
+    """A foot that can be taken by the hand: its link (or frame) in the first chain, and its side."""
+
+    link: str
+    side: str
+
+
+@dataclass(frozen=True)
 class Belt:
     """The treadmill's belt: node of the slats, their distance [m], speed backwards [m/s]."""
 
@@ -124,6 +135,7 @@ class Facts:
         contact: How contact was found, for the legend.
         reference: What the dashed curves are, or empty.
         chains: The figures.
+        grips: The feet of the first figure that can be dragged.
         plots: The tabs of plots.
         groups: What can be shown or hidden.
         marks: What moves besides the figures.
@@ -145,6 +157,7 @@ class Facts:
     contact: str
     reference: str
     chains: tuple[Chain, ...]
+    grips: tuple[Grip, ...]
     plots: tuple[PlotGroup, ...]
     groups: tuple[Group, ...]
     marks: Marks
@@ -164,11 +177,13 @@ class Scene:
         facts: What the page knows.
         commands: What draws it, in order (meshcat's protocol).
         arrays: Samples by name, each `(n, ...)`, float32 (times float64).
+        robot: Of the first figure; the live viewer asks its inverse kinematics. None: nobody answers.
     """
 
     facts: Facts
     commands: tuple[Command, ...]
     arrays: Mapping[str, NDArray[np.floating[Any]]]
+    robot: Robot | None = None
 
     @property
     def title(self) -> str:

@@ -23,7 +23,7 @@ class Desk(Protocol):
     def joined(self, client: Live) -> None:
         """A page opened its connection."""
 
-    def heard(self, message: str | bytes) -> None:
+    def heard(self, client: Live, message: str | bytes) -> None:
         """A page said something."""
 
     def left(self, client: Live) -> None:
@@ -94,7 +94,7 @@ class Live(WebSocketHandler):
 
     def on_message(self, message: str | bytes) -> None:
         """A page said something."""
-        self.viewer.heard(message)
+        self.viewer.heard(self, message)
 
     def on_close(self) -> None:
         """The page is gone."""

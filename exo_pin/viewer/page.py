@@ -29,6 +29,8 @@ SCRIPTS = (
     "plots.js",
     "toggles.js",
     "sliders.js",
+    "reach.js",
+    "grips.js",
     "record.js",
     "controls.js",
     "transport.js",

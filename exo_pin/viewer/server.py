@@ -10,15 +10,15 @@ import asyncio
 import contextlib
 import ipaddress
 import json
-import math
 import re
 import socket
 import threading
 import webbrowser
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from exo_pin.viewer import messages
 from exo_pin.viewer.port import listen
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 BUNDLE, POSE = b"\0", b"\1"
 """First byte of a binary message to the page: a packed scene, or one pose."""
+
+PACE = 0.004
+"""A page's wishes are gathered for so long [s] before the latest is answered: a flood costs no more."""
 
 
 def serve(
@@ -73,6 +76,9 @@ class Server:
         self._title = "exo_pin"
         self._state: dict[str, Any] | None = None
         self._clients: set[Live] = set()
+        self._wishes: dict[Live, messages.Wish] = {}
+        self._scene: Scene | None = None
+        self._reach: Callable[[messages.Wish], dict[str, Any]] | None = None
         self._socket = listen(host, port)
         self._address, self.port = self._socket.getsockname()[:2]
         self._loop = asyncio.new_event_loop()
@@ -105,8 +111,8 @@ class Server:
         """Show another scene in all pages, now and later."""
         from exo_pin.viewer.bundle import bundle
 
-        self._bundle, self._title, self._state = bundle(scene), scene.title, None
-        self._broadcast(BUNDLE + self._bundle)
+        packed = bundle(scene)
+        self._loop.call_soon_threadsafe(self._install, scene, packed)
 
     def pose(self, q: npt.ArrayLike, base: npt.ArrayLike) -> None:
         """Show one pose in all pages that are open, and halt their playback.
@@ -186,6 +192,23 @@ class Server:
         for client in list(self._clients):
             client.send(message)
 
+    def _install(self, scene: Scene, packed: bytes) -> None:
+        self._bundle, self._title, self._state = packed, scene.title, None
+        self._scene, self._reach = scene, None
+        self._wishes.clear()
+        self._send(BUNDLE + packed)
+
+    def _fulfil(self, client: Live) -> None:
+        """Answer a page's latest wish."""
+        wish, scene = self._wishes.pop(client, None), self._scene
+        if wish is None or scene is None or scene.robot is None:
+            return
+        if self._reach is None:
+            from exo_pin.viewer.reach import reacher
+
+            self._reach = reacher(scene.robot, [joint.name for joint in scene.facts.chains[0].joints])
+        client.send(json.dumps(self._reach(wish)))
+
     # What the handlers call, in the server's own thread:
 
     def joined(self, client: Live) -> None:
@@ -199,31 +222,22 @@ class Server:
     def left(self, client: Live) -> None:
         """A page closed its connection."""
         self._clients.discard(client)
+        self._wishes.pop(client, None)
 
-    def heard(self, message: str | bytes) -> None:
-        """A page said something; only a well-formed state counts."""
-        state = _state(message)
-        if state is not None:
-            self._state = state
+    def heard(self, client: Live, message: str | bytes) -> None:
+        """A page said something; only a well-formed state or wish counts, and of wishes the latest."""
+        said = messages.read(message)
+        if said is None:
+            return
+        self._state = messages.state(said) or self._state
+        wish = None if self._scene is None else messages.wish(said, self._scene.facts)
+        if wish is not None:
+            if client not in self._wishes:
+                self._loop.call_later(PACE, self._fulfil, client)
+            self._wishes[client] = wish
 
     def page(self, host: str) -> str:
         """The page, which may connect back to where it came from and nowhere else."""
         from exo_pin.viewer.page import page
 
         return page(self._title, connect=f"ws://{host}")
-
-
-def _state(message: str | bytes) -> dict[str, Any] | None:
-    """The state in a message, or None if it is anything else."""
-    try:
-        said = json.loads(message)
-        if said["type"] != "state":
-            return None
-        time, speed = float(said["time"]), float(said["speed"])
-        view = str(said["view"])[:20]
-    except (ValueError, KeyError, TypeError):
-        return None
-    if not (math.isfinite(time) and 0.05 <= speed <= 10):
-        return None
-    flags = {name: said.get(name) is True for name in ("playing", "loop")}
-    return {"time": time, "speed": speed, "view": view, **flags}

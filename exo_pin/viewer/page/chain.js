@@ -9,10 +9,13 @@ class Chain {
     this.links = Object.fromEntries(Object.entries(spec.links).map(([name, path]) => [name, find(path)]));
     this.joints = spec.joints.map((joint) => ({ ...joint, node: find(joint.path) }));
     this.axes = spec.joints.map((joint) => new MeshCat.THREE.Vector3(...joint.axis));
+    this.q = spec.joints.map(() => 0);
+    this.base = null;
   }
 
   /** q in the order of spec.joints [rad, m]; base {position, turn}. */
   set(q, base) {
+    Object.assign(this, { q, base });
     this.root.position.set(...base.position);
     this.root.quaternion.copy(base.turn);
     this.joints.forEach((joint, k) => {

@@ -9,7 +9,14 @@ class Marks {
     this.belt = marks.belt ? stage.node(marks.belt.path) : null;
   }
 
+  /** A pose by hand has no centre of mass, no contact that we know of. */
+  hide() {
+    for (const node of [this.com, this.ground]) node.visible = false;
+    for (const path of Object.values(this.marks.contact)) this.stage.show(path, false);
+  }
+
   set(motion, t, at) {
+    for (const node of [this.com, this.ground]) node.visible = true;
     const [x, y, z] = motion.row("com", at);
     this.com.position.set(x, y, z);
     this.ground.position.set(x, y, this.marks.height);

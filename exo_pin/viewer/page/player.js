@@ -13,6 +13,7 @@ class Player {
     part("no-webgl").hidden = this.stage !== null;
     this.plots = new Plots(part("plots"), part("tabs"), this.stage && part("sliders"), (t) => this.seek(t));
     this.sliders = new Sliders(part("sliders"), (q) => this.poseByHand(q));
+    this.byHand = false; // whether the exoskeleton is posed by hand instead of by the walk
     this.controls = new Controls(this);
     this.transport = null;
     this.drawn = null; // time of the last picture
@@ -26,6 +27,11 @@ class Player {
     this.recorder = new Recorder(this.stage, (on) => {
       this.part("webm").setAttribute("aria-pressed", String(on));
       this.part("webm").textContent = on ? "Stop and save" : "Record WebM";
+    });
+    this.grips = new Grips(this.part("grips"), this.stage, {
+      grab: () => this.grab(),
+      ask: (wish) => this.transport.ask(wish, (answer) => this.reached(answer)),
+      release: () => this.apply(),
     });
     new ResizeObserver(() => {
       this.stage.resize();
@@ -70,6 +76,8 @@ class Player {
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
     this.sliders.load(header.chains[0]);
+    this.reach = new Reach(this.chains[0]);
+    this.grips.load(this.chains[0], header.grips);
     fillToggles(this.part("toggles"), header.groups, this.stage);
     this.gone = [0, 0];
     this.look(this.view || "iso");
@@ -79,6 +87,8 @@ class Player {
   apply() {
     const t = this.clock.time;
     const at = this.motion.at(t);
+    this.byHand = false;
+    this.part("reach").hidden = true;
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
@@ -104,7 +114,7 @@ class Player {
       this.clock.tick(now);
       if (this.clock.time !== this.drawn) this.apply();
       this.controls.show(this);
-      if (this.stage) this.stage.draw();
+      if (this.stage && this.stage.draw()) this.grips.show();
       if (now - (this.reported || 0) > REPORT) this.report(now);
     }
     requestAnimationFrame((next) => this.frame(next));
@@ -137,9 +147,33 @@ class Player {
   /** Poses the exoskeleton by the sliders; the pelvis stays where the walk has it. */
   poseByHand(q) {
     this.clock.play(false);
+    this.byHand = true;
     const { base } = this.chains[0].spec;
-    this.chains[0].set(q, this.motion.pose(base, this.motion.at(this.clock.time)));
+    this.chains[0].set([...q], this.motion.pose(base, this.motion.at(this.clock.time)));
+    this.marks.hide();
     this.stage.viewer.set_dirty();
+  }
+
+  /** A hand takes a foot: from here on, what is shown is no longer the walk. */
+  grab() {
+    this.clock.play(false);
+    if (this.drawn !== this.clock.time) this.apply();
+    this.byHand = true;
+  }
+
+  /** Inverse kinematics has answered the hand; an answer that comes after the walk went on is too late. */
+  reached({ q, misses }) {
+    if (!this.byHand) return;
+    this.poseByHand(q);
+    this.sliders.show(q);
+    this.grips.show(misses);
+    const { held } = this.grips;
+    if (!held) return;
+    const status = this.part("reach");
+    const said = missing(misses[held.link]);
+    status.textContent = `${held.side} foot ${said}`;
+    status.classList.toggle("short", said !== "reached");
+    status.hidden = false;
   }
 
   toggle() {

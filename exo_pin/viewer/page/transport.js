@@ -4,6 +4,7 @@
 const BUNDLE = 0; // first byte of a binary message: a whole bundle follows
 const POSE = 1; // base (7) and joints, float32: show exactly this, now
 const RETRY = 1000; // [ms] between attempts to reach the server again
+const PATIENCE = 1000; // [ms] a question waits for its answer before the next is asked
 
 class Embedded {
   constructor(text) {
@@ -11,16 +12,25 @@ class Embedded {
   }
 
   async start(player) {
+    this.player = player;
     await player.load(fromBase64(this.text));
   }
 
   report() {}
+
+  /** Where the joints go for a wish: the page finds out by itself. */
+  ask(wish, tell) {
+    tell(this.player.reach.answer(wish));
+  }
 }
 
 class Live {
   constructor(address) {
     this.address = address;
     this.said = "";
+    this.count = 0;
+    this.asked = null; // the question that is on its way: {id, tell, sent}
+    this.next = null; // of those that wait, only the latest counts
     this.queue = Promise.resolve(); // bundles inflate asynchronously; messages keep their order
   }
 
@@ -44,16 +54,47 @@ class Live {
   }
 
   async receive(data, ready) {
-    if (typeof data === "string") return this.player.resume(JSON.parse(data));
+    if (typeof data === "string") {
+      const said = JSON.parse(data);
+      return said.type === "reached" ? this.reached(said) : this.player.resume(said);
+    }
     const kind = new Uint8Array(data, 0, 1)[0];
     if (kind === POSE) return this.player.pose(new Float32Array(data.slice(1)));
     if (kind === BUNDLE) await this.player.load(new Uint8Array(data, 1));
     return ready();
   }
 
+  /** Asks Python where the joints go for a wish, one question at a time; the page itself if nobody is there. */
+  ask(wish, tell) {
+    if (this.asked && performance.now() - this.asked.sent < PATIENCE) {
+      this.next = { wish, tell };
+      return;
+    }
+    if (!this.open) {
+      tell(this.player.reach.answer(wish));
+      return;
+    }
+    this.asked = { id: this.count++, tell, sent: performance.now() };
+    this.socket.send(JSON.stringify({ type: "reach", id: this.asked.id, ...wish }));
+  }
+
+  reached(answer) {
+    if (!this.asked || answer.id !== this.asked.id) return;
+    const { tell, sent } = this.asked;
+    const { next } = this;
+    this.asked = this.next = null;
+    this.latency = performance.now() - sent; // [ms]
+    tell(answer);
+    if (next) this.ask(next.wish, next.tell);
+  }
+
+  get open() {
+    return Boolean(this.socket) && this.socket.readyState === WebSocket.OPEN;
+  }
+
   report(state) {
     const text = JSON.stringify({ type: "state", ...state });
-    if (text === this.said || !this.socket || this.socket.readyState !== WebSocket.OPEN) return;
+    if (text === this.said || !this.open) return;
     this.said = text;
     this.socket.send(text);
   }

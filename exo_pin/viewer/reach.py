@@ -1,0 +1,75 @@
+"""Feet taken by the hand: the page says where it wants them, inverse kinematics says how far the legs get."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from exo_pin import ik
+from exo_pin.errors import DescriptionError
+from exo_pin.robot import Robot
+from exo_pin.viewer.messages import Wish
+
+Array = NDArray[np.float64]
+
+TURN = 0.1
+"""What a rotation error of 1 rad counts in metres: so far it moves the sole's points on average (a choice)."""
+
+TOLERANCE = 1e-6
+"""A foot this near to its target [m, rad] is there."""
+
+NEAREST = ik.Dls(tolerance=TOLERANCE, max_iterations=40, restarts=0)
+"""For targets out of reach: from the pose at present, so that the leg does not jump; at most some 10 ms."""
+
+
+def reacher(robot: Robot, joints: Sequence[str]) -> Callable[[Wish], dict[str, Any]]:
+    """A function that answers a page's wishes for a robot.
+
+    The closed form answers where it can; else damped least squares give the nearest pose within the joint
+    limits, nearest in metres and `TURN` times radians.
+
+    Args:
+        robot: Whose legs they are.
+        joints: Names of the joints in the order of the page's chain; those unknown to the robot stay.
+
+    Returns:
+        Wish -> what the page is told: `q` in the page's order, and `misses`: frame -> (distance [m],
+        angle [rad]) that remain, both 0 where the foot is at its target within `TOLERANCE`.
+    """
+    places = [k for k, name in enumerate(joints) if name in robot.joints]
+    driven = [robot.joints.index(joints[k]) for k in places]
+    columns = [robot.column(joints[k]) for k in places]
+
+    def answer(wish: Wish) -> dict[str, Any]:
+        q = np.array(wish.q)
+        start = robot.neutral
+        start[columns] = np.clip(q[places], robot.lower[driven], robot.upper[driven])
+        found = _solve(robot, {name: _target(robot, pose) for name, pose in wish.feet.items()}, start)
+        q[places] = found.q[0, columns]
+        errors = np.stack([found.position_error[0], found.rotation_error[0]], axis=1)
+        errors[(errors <= TOLERANCE).all(axis=1)] = 0.0
+        misses = dict(zip(found.frames, errors.tolist(), strict=True))
+        return {"type": "reached", "id": wish.id, "q": q.tolist(), "misses": misses}
+
+    return answer
+
+
+def _solve(robot: Robot, targets: dict[str, ik.Pose], start: Array) -> ik.Track:
+    try:
+        exact = ik.track(
+            robot, targets, start, base=robot.placement, settings=ik.ClosedForm(tolerance=TOLERANCE)
+        )
+        if exact.converged[0]:
+            return exact
+    except DescriptionError:  # a leg that has none
+        pass
+    return ik.track(robot, targets, start, base=robot.placement, settings=NEAREST)
+
+
+def _target(robot: Robot, pose: tuple[float, ...]) -> ik.Pose:
+    T = robot.placement @ pin.XYZQUATToSE3(np.array(pose)).homogeneous
+    return ik.Pose(T[None], rotation_weight=TURN)
