@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
+_ROUNDING = 1e-12  # of a pivot against its diagonal
 _ROUNDS = 30  # rounds of fixing and freeing joints; what is unfinished is cut to the box and damped next
 
 
@@ -37,6 +38,19 @@ def solved(A: Array, g: Array) -> Array:
             x[j] -= A[i, j] * x[i]
         x[j] /= A[j, j]
     return x
+
+
+def definite(A: Array) -> npt.NDArray[np.bool_]:
+    """Which of the symmetric matrices (k, k, m) are positive definite by more than rounding (m,)."""
+    size = len(A)
+    B, least = A.copy(), _ROUNDING * A[range(size), range(size)]
+    good = np.ones(A.shape[2], dtype=bool)
+    with np.errstate(all="ignore"):  # what is not definite may run into anything
+        for j in range(size):
+            good &= B[j, j] > least[j]
+            ratio = B[j + 1 :, j] / B[j, j]
+            B[j + 1 :, j + 1 :] -= ratio[:, None] * B[j, j + 1 :]
+    return good
 
 
 def box_steps(A: Array, g: Array, lower: Array, upper: Array) -> Array:

@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 from exo_pin.errors import DescriptionError
 from exo_pin.ik import batch
+from exo_pin.ik.batch_limb import together
+from exo_pin.ik.branches import branches
 from exo_pin.ik.ideal import IdealLeg, ideal
 from exo_pin.ik.leg import Leg, leg
 from exo_pin.ik.limb import Limb
@@ -85,11 +87,14 @@ def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, 
         goal = task.goals[place]
         sheet.slack[:, place] = slack_of(leg(task.robot, goal.frame), goal)
     apart = task.seed.ndim == 2 or not settings.warm_start
-    if own is None or not apart or task.n < 2 or settings.damping:
+    joints = branches(limb) if apart and task.n > 1 and not settings.damping else None
+    if joints is None:
         follow(task, limb, settings, sheet)
-        return
-    seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, own.columns].T
-    batch.descent(task, f, own, settings, sheet, seed=seed)
+    elif own is None:
+        together(task, limb, joints, settings, sheet)
+    else:
+        seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, own.columns].T
+        batch.descent(task, f, own, settings, sheet, seed=seed)
 
 
 def _limbs(task: Problem) -> Iterator[tuple[Limb, int, Leg | None]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -85,6 +85,11 @@ class Goal:
     R: Array | None
     weight: Array
     rotation_weight: float
+
+    def only(self, samples: npt.NDArray[np.int64]) -> Goal:
+        """The goal at some of its samples."""
+        R = None if self.R is None else self.R[samples]
+        return replace(self, p=self.p[samples], R=R, weight=self.weight[samples])
 
 
 def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> tuple[list[Goal], int]:

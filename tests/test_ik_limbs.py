@@ -1,0 +1,148 @@
+"""Batched descent of any limb: derivatives, agreement with other solvers, limits, weights, redundancy."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from exo_pin import ik
+from exo_pin.anatomy import FEET
+from exo_pin.compare import Conditions, best, robot_for, walk
+from exo_pin.compare.motion import corners
+from exo_pin.devices import find
+from exo_pin.gait import normative_gait
+from exo_pin.ik import solvers
+from exo_pin.ik.batch_limb import descend
+from exo_pin.ik.branches import branches, motion
+from exo_pin.ik.problem import problem
+from exo_pin.ik.pull import aims, pull
+from exo_pin.kinematics import poses
+from exo_pin.robot import load_robot
+
+SAME = 1e-6  # rad, m: two iterations towards one flat minimum, the slower one stops its steps at 1e-10
+SLOPE = 1e-9  # central differences of step 1e-5 of values of about 1
+BOUNDS = 1e-9  # m^2: scipy starts inside its bounds only, which are therefore 1e-9 rad wider
+EXACT = 1e-12  # the same arithmetic in another order
+DEVICES = ("lopes8", "planar9", "lokomat")
+
+
+def _task(device, rng, n=20):
+    """A limb with slides and two legs under points with weights and a weighted pose."""
+    robot = load_robot(device=device)
+    feet = poses(load_robot(), rng.normal(0, 0.2, (n, 12)), FEET)
+    local, far = rng.normal(0, 0.1, (5, 3)), rng.normal(0, 0.1, (n, 5, 3))
+    far[3, 1] = np.nan  # an unseen marker
+    targets = {
+        "left_foot": ik.Points(local, far, rng.uniform(0, 2, 5)),
+        "right_foot": ik.Pose(feet[:, 1], 1.3, 0.7),
+    }
+    task = problem(robot, targets, rng.normal(0, 0.2, (n, robot.nq)), None)
+    return task, task.limbs[0], task.goals_of(task.limbs[0])
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_arrays_and_pinocchio_put_the_frames_in_the_same_places(device, rng):
+    task, limb, _ = _task(device, rng)
+    joints = branches(limb)
+    q = rng.uniform(limb.lower, limb.upper, (20, len(limb.q)))
+    whole = np.zeros((20, task.robot.nq))
+    whole[:, limb.q] = q
+    expected = poses(task.robot, whole, limb.frames)
+    now = motion(joints, q.T)
+    for f in range(len(limb.frames)):
+        R = np.einsum("abm,bc->mac", now.R[f], joints.frames[f, :3, :3])
+        p = np.einsum("abm,b->ma", now.R[f], joints.frames[f, :3, 3]) + now.p[f].T
+        assert np.abs(R - expected[:, f, :3, :3]).max() <= EXACT
+        assert np.abs(p - expected[:, f, :3, 3]).max() <= EXACT
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_slope_and_curvature_are_the_derivatives_of_the_cost(device, rng):
+    _, limb, goals = _task(device, rng)
+    joints, step = branches(limb), 1e-5
+    aimed = aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2))
+    q = rng.uniform(-0.4, 0.4, (len(limb.q), 20))
+    here = pull(joints, aimed, q)
+    for j in range(len(q)):
+        aside = np.zeros((len(q), 1))
+        aside[j] = step
+        up, down = pull(joints, aimed, q + aside), pull(joints, aimed, q - aside)
+        assert (down.cost - up.cost) / (4 * step) == pytest.approx(here.slope[j], abs=SLOPE)
+        assert (down.slope - up.slope) / (2 * step) == pytest.approx(here.normal[j] + here.rest[j], abs=SLOPE)
+
+
+@pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])
+def test_scipy_finds_the_same_compromise(device, rng):
+    from scipy.optimize import least_squares
+
+    robot = load_robot(device=device)
+    recorded = walk(normative_gait().resampled(5))
+    found = best(recorded, robot, Conditions("device"))
+    stand = found.gait.base @ np.linalg.inv(robot.slid(found.q))
+    for k in range(5):
+
+        def missed(q, k=k):
+            feet = poses(robot, q, FEET, base=stand[k])
+            return (corners(robot, feet) - recorded.corners[k]).ravel()
+
+        other = least_squares(
+            missed, found.q[k], bounds=(robot.lower - 1e-9, robot.upper + 1e-9), xtol=1e-13, ftol=1e-15
+        )
+        assert np.sum(missed(found.q[k]) ** 2) <= 2 * other.cost + BOUNDS
+
+
+@pytest.mark.parametrize("device", ["lokomat", "lopes7", "h2"])
+@pytest.mark.parametrize("pelvis", ["recorded", "device"])
+def test_all_at_once_answers_as_one_after_the_other(device, pelvis, monkeypatch):
+    recorded, conditions = walk(normative_gait().resampled(12)), Conditions(pelvis)
+    robot = robot_for(find(device), recorded.robot.body, conditions)
+    together = best(recorded, robot, conditions)
+    monkeypatch.setattr(solvers, "branches", lambda _: None)
+    one_by_one = best(recorded, robot, conditions)
+    assert together.q == pytest.approx(one_by_one.q, abs=SAME)
+
+
+def test_answers_keep_limits_of_each_sample_and_hold_joints_between_equal_ones(rng):
+    _, limb, goals = _task("lopes8", rng)
+    seed = rng.uniform(-0.2, 0.2, (len(limb.q), 20))
+    width = rng.uniform(0, 0.3, seed.shape)
+    width[rng.random(seed.shape) < 0.3] = 0.0
+    out = descend(branches(limb), goals, seed, seed - width, seed + width, ik.Dls(tolerance=1e-10))
+    assert ((out.q >= seed - width) & (out.q <= seed + width)).all()
+    assert np.array_equal(out.q[width == 0.0], seed[width == 0.0])
+
+
+def test_no_free_joint_has_a_slope_left_and_a_held_one_is_pushed_outwards(rng):
+    _, limb, goals = _task("lopes8", rng)
+    joints, low, high = branches(limb), limb.lower[:, None], limb.upper[:, None]
+    out = descend(joints, goals, np.zeros((len(limb.q), 20)), limb.lower, limb.upper, ik.Dls())
+    slope = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls()), out.q).slope
+    inside = (out.q > low) & (out.q < high)
+    assert np.abs(slope[inside]).max() < SAME
+    assert (slope[out.q <= low] <= SAME).all()
+    assert (slope[out.q >= high] >= -SAME).all()
+
+
+def test_samples_do_not_know_of_each_other(rng):
+    _, limb, goals = _task("planar9", rng)
+    seed = rng.uniform(-0.2, 0.2, (len(limb.q), 20))
+    all_of_them = descend(branches(limb), goals, seed, limb.lower, limb.upper, ik.Dls())
+    order = rng.permutation(20)[:7]
+    some = descend(
+        branches(limb), [g.only(order) for g in goals], seed[:, order], limb.lower, limb.upper, ik.Dls()
+    )
+    assert some.q == pytest.approx(all_of_them.q[:, order], abs=SAME)
+
+
+def test_a_reachable_target_is_met_from_far_away_by_other_starts(rng):
+    robot = load_robot(device="planar7")
+    q = rng.uniform(robot.lower, robot.upper, (40, robot.nq))
+    targets = {foot: poses(robot, q, [foot])[:, 0] for foot in FEET}
+    far = np.tile(robot.upper, (40, 1))
+    settings = ik.Dls(tolerance=1e-9, warm_start=False)
+    assert not ik.track(
+        robot, targets, far, settings=dataclasses.replace(settings, restarts=0)
+    ).converged.all()
+    answer = ik.track(robot, targets, far, settings=settings)
+    assert answer.position_error[answer.converged].max() <= 1e-9
+    assert answer.converged.mean() > 0.9
