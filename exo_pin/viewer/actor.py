@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
@@ -43,11 +43,7 @@ class Actor:
 
 def exoskeleton(robot: Robot, shown: Motion, tree: Linkage) -> Actor:
     """The exoskeleton in the shown motion."""
-    limits = dict(
-        zip(robot.joints, zip(robot.lower.tolist(), robot.upper.tolist(), strict=True), strict=True)
-    )
-    turns = tuple(replace(turn, limits=limits.get(turn.name)) for turn in tree.turns)
-    chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
+    chain = Chain("exo", tree.root, tree.links, tree.turns, "q", "base")
     return Actor(tree.commands, chain, _samples(robot, shown, tree, ""), Group("Exoskeleton", tree.looks))
 
 

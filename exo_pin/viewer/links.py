@@ -169,7 +169,7 @@ class _Nesting:
         axis = joint.find("axis")
         direction = np.array(_numbers(axis.get("xyz", "1 0 0")) if axis is not None else [1.0, 0.0, 0.0])
         x, y, z = (direction / np.linalg.norm(direction)).tolist()
-        self.turns.append(Turn(name, turn, (x, y, z), kind))
+        self.turns.append(Turn(name, turn, (x, y, z), kind, _limits(joint)))
         self.link(child, turn)
 
     def material(self, visual: ET.Element) -> Material:
@@ -201,6 +201,13 @@ def _rotation(roll: float, pitch: float, yaw: float) -> Array:
     Rz = np.array([[c, -u, 0], [u, c, 0], [0, 0, 1]])
     R: Array = Rz @ Ry @ Rx
     return R
+
+
+def _limits(joint: ET.Element) -> tuple[float, float] | None:
+    limit = joint.find("limit")
+    if joint.get("type") == "continuous" or limit is None:
+        return None
+    return float(limit.get("lower", 0)), float(limit.get("upper", 0))
 
 
 def _end(joint: ET.Element, which: str) -> str:

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from exo_pin import ik
 from exo_pin.errors import DescriptionError
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, load_urdf
 from exo_pin.viewer.messages import Wish
 
 Array = NDArray[np.float64]
 
 TURN = 0.1
-"""What a rotation error of 1 rad counts in metres: so far it moves the sole's points on average (a choice)."""
+"""What a rotation error of 1 rad counts in metres: about what it moves the sole's points (a choice)."""
 
 TOLERANCE = 1e-6
 """A foot this near to its target [m, rad] is there."""
@@ -34,42 +34,38 @@ def reacher(robot: Robot, joints: Sequence[str]) -> Callable[[Wish], dict[str, A
 
     Args:
         robot: Whose legs they are.
-        joints: Names of the joints in the order of the page's chain; those unknown to the robot stay.
+        joints: Names of its URDF's joints in the order of the page's chain.
 
     Returns:
         Wish -> what the page is told: `q` in the page's order, and `misses`: frame -> (distance [m],
         angle [rad]) that remain, both 0 where the foot is at its target within `TOLERANCE`.
     """
-    places = [k for k, name in enumerate(joints) if name in robot.joints]
-    driven = [robot.joints.index(joints[k]) for k in places]
-    columns = [robot.column(joints[k]) for k in places]
+    own = load_urdf(robot.urdf)  # what the page shows: its root link at the origin, its locked joints locked
+    columns = [own.joints.index(name) for name in joints]
 
     def answer(wish: Wish) -> dict[str, Any]:
-        q = np.array(wish.q)
-        start = robot.neutral
-        start[columns] = np.clip(q[places], robot.lower[driven], robot.upper[driven])
-        found = _solve(robot, {name: _target(robot, pose) for name, pose in wish.feet.items()}, start)
-        q[places] = found.q[0, columns]
+        start = own.neutral
+        start[columns] = wish.q
+        targets = {name: _target(pose) for name, pose in wish.feet.items()}
+        found = _solve(own, targets, np.clip(start, own.lower, own.upper))
         errors = np.stack([found.position_error[0], found.rotation_error[0]], axis=1)
         errors[(errors <= TOLERANCE).all(axis=1)] = 0.0
         misses = dict(zip(found.frames, errors.tolist(), strict=True))
-        return {"type": "reached", "id": wish.id, "q": q.tolist(), "misses": misses}
+        return {"type": "reached", "id": wish.id, "q": found.q[0, columns].tolist(), "misses": misses}
 
     return answer
 
 
 def _solve(robot: Robot, targets: dict[str, ik.Pose], start: Array) -> ik.Track:
     try:
-        exact = ik.track(
-            robot, targets, start, base=robot.placement, settings=ik.ClosedForm(tolerance=TOLERANCE)
-        )
+        exact = ik.track(robot, targets, start, settings=ik.ClosedForm(tolerance=TOLERANCE))
         if exact.converged[0]:
             return exact
     except DescriptionError:  # a leg that has none
         pass
-    return ik.track(robot, targets, start, base=robot.placement, settings=NEAREST)
+    return ik.track(robot, targets, start, settings=NEAREST)
 
 
-def _target(robot: Robot, pose: tuple[float, ...]) -> ik.Pose:
-    T = robot.placement @ pin.XYZQUATToSE3(np.array(pose)).homogeneous
+def _target(pose: tuple[float, ...]) -> ik.Pose:
+    T = pin.XYZQUATToSE3(np.array(pose)).homogeneous
     return ik.Pose(T[None], rotation_weight=TURN)

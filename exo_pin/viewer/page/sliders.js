@@ -11,6 +11,7 @@ class Sliders {
   }
 
   load(chain) {
+    this.joints = chain.joints;
     this.q = chain.joints.map(() => 0);
     const limited = chain.joints.map((joint, k) => ({ joint, k })).filter(({ joint }) => joint.limits);
     this.rows = limited.map(({ joint, k }) => this.row(joint, k));
@@ -35,7 +36,8 @@ class Sliders {
   }
 
   tell({ range, value, k }) {
-    value.textContent = `${fixed(this.q[k] * TO_DEGREES, 0)}\u00b0`;
+    const slides = this.joints[k].kind === "prismatic";
+    value.textContent = slides ? `${fixed(this.q[k] * 1000, 0)} mm` : `${fixed(this.q[k] * TO_DEGREES, 0)}\u00b0`;
     range.setAttribute("aria-valuetext", value.textContent);
   }
 
