@@ -30,6 +30,7 @@ COMMANDS = {
     "devices": "the exoskeletons and planar models to choose from",
     "compare": "what each device loses of a walk",
     "joints": "which joints of a leg are worth their motor",
+    "study": "all devices under many walks and on many bodies: a table and a page",
     "retarget": "a walk as joint angles of a humanoid",
     "feasible": "whether a device can do a walk with a person",
     "dh": "the Denavit-Hartenberg table for a body",

@@ -8,6 +8,7 @@ from exo_pin.report.blocks import Document, Drawing
 from exo_pin.report.markdown import markdown
 from exo_pin.report.page import html
 from exo_pin.report.reproduction import Rendered, reproduction
+from exo_pin.report.study import study
 from exo_pin.report.walk import About, walk
 
-__all__ = ["About", "Document", "Drawing", "Rendered", "html", "markdown", "reproduction", "walk"]
+__all__ = ["About", "Document", "Drawing", "Rendered", "html", "markdown", "reproduction", "study", "walk"]

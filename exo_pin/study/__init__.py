@@ -4,16 +4,20 @@
 """
 
 from exo_pin.study.case import Case, Outcome, solve
-from exo_pin.study.plan import plan, recordings, statures
+from exo_pin.study.plan import STATURES, STEP, bodies, plan, recordings, statures
 from exo_pin.study.sheet import COLUMNS, Row, load, save
+from exo_pin.study.summary import summary
 from exo_pin.study.work import Study, run
 
 __all__ = [
     "COLUMNS",
+    "STATURES",
+    "STEP",
     "Case",
     "Outcome",
     "Row",
     "Study",
+    "bodies",
     "load",
     "plan",
     "recordings",
@@ -21,4 +25,5 @@ __all__ = [
     "save",
     "solve",
     "statures",
+    "summary",
 ]

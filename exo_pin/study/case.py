@@ -1,11 +1,11 @@
-"""A case: one walk on one body under one set of conditions, for several devices; what a worker is given."""
+"""A case: one walk on one body, to be put through devices under conditions; what a worker is given."""
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import Body
 from exo_pin.compare import PHASES, Conditions, Loss, compare
-from exo_pin.compare.motion import GRANTED
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
@@ -30,27 +29,25 @@ _DIGITS = 16
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
-    """One walk on one body under one set of conditions.
+    """One walk on one body.
 
     Attributes:
         gait: A speed of the normative walk, or what a recording is called.
         path: File of the recording; empty for a speed.
         body: Who walks; None: the body that a marker trial is solved on, else `Body.from_stature()`.
-        devices: What is put through the walk.
-        conditions: What the devices are granted.
+        parts: The devices to be put through the walk, each with what it is granted.
         preset: Sign convention of a recording that does not tell it; None: find out.
     """
 
     gait: str
     body: Body | None
-    devices: tuple[Device, ...]
-    conditions: Conditions = GRANTED
+    parts: tuple[tuple[Conditions, Device], ...]
     path: str = ""
     preset: str | None = None
 
     @cached_property
     def fingerprints(self) -> tuple[str, ...]:
-        """One for each device: equal if and only if everything that its rows depend on is equal.
+        """One for each part: equal if and only if everything that its rows depend on is equal.
 
         Raises:
             FormatError: The recording cannot be read.
@@ -59,15 +56,16 @@ class Case:
 
         walk = hashlib.sha256(read_bytes(self.path)).hexdigest() if self.path else ""
         body = None if self.body is None else _plain(self.body)
-        shared = (__version__, self.gait, walk, self.preset, body, _plain(self.conditions))
+        shared = (__version__, self.gait, walk, self.preset, body)
         return tuple(
-            hashlib.sha256(repr((shared, _plain(device))).encode()).hexdigest()[:_DIGITS]
-            for device in self.devices
+            hashlib.sha256(repr((shared, _plain(granted), _plain(device))).encode()).hexdigest()[:_DIGITS]
+            for granted, device in self.parts
         )
 
-    def only(self, devices: tuple[Device, ...]) -> Case:
-        """The same case for some of its devices."""
-        return dataclasses.replace(self, devices=devices)
+    def without(self, done: Container[str]) -> Case:
+        """The same case without the parts of these fingerprints."""
+        pairs = zip(self.parts, self.fingerprints, strict=True)
+        return dataclasses.replace(self, parts=tuple(part for part, mark in pairs if mark not in done))
 
 
 @dataclass(frozen=True)
@@ -91,23 +89,16 @@ def solve(case: Case) -> Outcome:
     Whatever goes wrong with a recording is told in the outcome, so that one bad file does not stop the rest.
     """
     try:
-        fingerprints = case.fingerprints
         gait, body = _walk(case)
-        compared = compare(gait, case.devices, body, conditions=case.conditions)
+        rows = [
+            row
+            for granted in dict.fromkeys(c for c, _ in case.parts)
+            for row in _rows(case, gait, body, granted)
+        ]
     except ExoPinError as error:
-        return Outcome(case, failure=_line(error))
+        return Outcome(case, failure=_line(case, str(error)))
     except Exception as error:  # a reader's bug: it shall cost this file, not the night's work
-        return Outcome(
-            case, failure=f"{case.path or case.gait}: unexpected {type(error).__name__}: {_line(error)}"
-        )
-    of_device = dict(zip((device.name for device in case.devices), fingerprints, strict=True))
-    doubtful = "; ".join(doubts(gait))
-    pairs = zip(compared.best, compared.projected, strict=True)
-    rows = [
-        _row(case, loss, motion, doubtful, of_device[loss.device.name])
-        for pair in pairs
-        for motion, loss in zip(MOTIONS, pair, strict=True)
-    ]
+        return Outcome(case, failure=_line(case, f"unexpected {type(error).__name__}: {error}"))
     return Outcome(case, tuple(rows))
 
 
@@ -133,7 +124,18 @@ def _is_markers(path: Path) -> bool:
     return path.suffix.lower() not in FORMATS or not has_angles(load_markers(path))
 
 
-def _row(case: Case, loss: Loss, motion: str, doubtful: str, inputs: str) -> Row:
+def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[Row]:
+    """The rows of all devices under one set of conditions."""
+    parts = zip(case.parts, case.fingerprints, strict=True)
+    devices = {device: mark for (conditions, device), mark in parts if conditions == granted}
+    compared = compare(gait, devices, body, conditions=granted)
+    doubtful = "; ".join(doubts(gait))
+    for pair in zip(compared.best, compared.projected, strict=True):
+        for motion, loss in zip(MOTIONS, pair, strict=True):
+            yield _row(case, loss, motion, granted, doubtful, devices[loss.device])
+
+
+def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str, inputs: str) -> Row:
     from exo_pin import __version__
 
     body = loss.walk.robot.body
@@ -153,8 +155,8 @@ def _row(case: Case, loss: Loss, motion: str, doubtful: str, inputs: str) -> Row
         sex=body.sex,
         device=loss.device.name,
         motors=loss.device.motors,
-        pelvis=case.conditions.pelvis,
-        passive=case.conditions.passive,
+        pelvis=granted.pelvis,
+        passive=granted.passive,
         motion=motion,
         sole_rms_mm=facts["sole_error_mm"]["rms"],
         sole_max_mm=facts["sole_error_mm"]["max"],
@@ -186,5 +188,7 @@ def _nan(value: float | None) -> float:
     return math.nan if value is None else value
 
 
-def _line(error: Exception) -> str:
-    return " ".join(str(error).split())
+def _line(case: Case, words: str) -> str:
+    """The words in one line that names the walk."""
+    name, line = case.path or case.gait, " ".join(words.split())
+    return line if name in line else f"{name}: {line}"

@@ -67,15 +67,14 @@ def plan(
         UnknownNameError: A speed, device or sex is unknown.
         DescriptionError: A body is not plausible.
     """
-    speeds, found = tuple(speeds), _found(devices)
+    speeds, parts = tuple(speeds), _parts(conditions, devices)
     for speed in speeds:
         if speed not in SPEEDS:
             raise UnknownNameError("speed", speed, SPEEDS)
     return [
-        Case(gait=speed, body=body, devices=found, conditions=granted)
+        Case(gait=speed, body=body, parts=parts)
         for body in bodies(statures() if of is None else of, mass=mass, sex=sex)
         for speed in speeds
-        for granted in conditions
     ]
 
 
@@ -117,7 +116,7 @@ def recordings(
     Raises:
         FormatError: It is no folder, or holds no such file.
     """
-    folder, found = Path(folder), _found(devices)
+    folder, parts = Path(folder), _parts(conditions, devices)
     if not folder.is_dir():
         raise FormatError(folder, "not a folder" if folder.exists() else "no such folder")
     endings = sorted({*FORMATS, *MARKER_FORMATS})
@@ -129,15 +128,16 @@ def recordings(
     if not names:
         raise FormatError(folder, f"holds no recording; one ends in {', '.join(endings)}")
     return [
-        Case(gait=name, path=str(folder / name), body=body, devices=found, conditions=granted, preset=preset)
+        Case(gait=name, path=str(folder / name), body=body, parts=parts, preset=preset)
         for name in names
         for body in on
-        for granted in conditions
     ]
 
 
-def _found(devices: Iterable[str | Device]) -> tuple[Device, ...]:
-    """The records of the devices.
+def _parts(
+    conditions: Iterable[Conditions], devices: Iterable[str | Device]
+) -> tuple[tuple[Conditions, Device], ...]:
+    """Every device under every condition.
 
     Raises:
         DescriptionError: There is none, or two have the same name.
@@ -147,7 +147,7 @@ def _found(devices: Iterable[str | Device]) -> tuple[Device, ...]:
     if len(set(names)) < len(names) or not names:
         given = ", ".join(names) or "none"
         raise DescriptionError(f"devices of a study, each with a name of its own, are needed; given: {given}")
-    return found
+    return tuple((granted, device) for granted in conditions for device in found)
 
 
 def _hidden(path: Path) -> bool:

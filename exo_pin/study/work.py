@@ -5,8 +5,8 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-from typing import Any
 
 from exo_pin.errors import DescriptionError, FormatError
 from exo_pin.files import write_text
@@ -63,26 +63,23 @@ def run(
         DescriptionError: The table holds rows of another plan or version.
         FormatError: The table is no study's, or cannot be written.
     """
-    cases, failures = _readable(cases)
+    cases, failed = _readable(cases)
     wanted = {mark for case in cases for mark in case.fingerprints}
     done = {} if path is None else _kept(Path(path), wanted, restart)
-    kept = len(done) * len(MOTIONS)
+    kept, failures = len(done) * len(MOTIONS), {}
+    todo = [rest for case in cases if (rest := case.without(done)).parts]
     with _draft(path, done) as note:
-        for outcome in progress(_solved(todo := _todo(cases, done), jobs), len(todo)):
+        for outcome in progress(chain(failed, _solved(todo, jobs)), len(failed) + len(todo)):
             if outcome.failure:
                 failures[outcome.case.gait] = outcome.failure
             note(outcome.rows)
             for row in outcome.rows:
                 done.setdefault(row.inputs, {})[row.motion] = row
-    rows = tuple(
-        done[mark][motion]
-        for case in cases
-        for mark in case.fingerprints
-        for motion in MOTIONS
-        if mark in done
-    )
-    if path is not None and rows:
-        sheet.save(rows, path)
+    marks = [mark for case in cases for mark in case.fingerprints if mark in done]
+    rows = tuple(done[mark][motion] for mark in marks for motion in MOTIONS)
+    if path is not None:
+        if rows:
+            sheet.save(rows, path)
         part(path).unlink(missing_ok=True)
     return Study(rows, failures, len(rows) - kept, kept)
 
@@ -92,17 +89,17 @@ def part(path: str | Path) -> Path:
     return Path(f"{path}.part")
 
 
-def _readable(cases: Iterable[Case]) -> tuple[list[Case], dict[str, str]]:
-    """Cases whose file can be read, and why the others cannot."""
-    fine, failures = [], {}
+def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
+    """Cases whose file can be read, and what became of the others."""
+    fine, failed = [], []
     for case in cases:
         try:
             _ = case.fingerprints
         except FormatError as error:
-            failures[case.gait] = str(error)
+            failed.append(Outcome(case, failure=str(error)))
         else:
             fine.append(case)
-    return fine, failures
+    return fine, failed
 
 
 def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Row]]:
@@ -122,17 +119,6 @@ def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Ro
             )
         found.setdefault(row.inputs, {})[row.motion] = row
     return {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
-
-
-def _todo(cases: Iterable[Case], done: dict[str, Any]) -> list[Case]:
-    """The cases with the devices that are not done yet."""
-    rest = []
-    for case in cases:
-        pairs = zip(case.devices, case.fingerprints, strict=True)
-        devices = tuple(device for device, mark in pairs if mark not in done)
-        if devices:
-            rest.append(case if devices == case.devices else case.only(devices))
-    return rest
 
 
 @contextlib.contextmanager

@@ -1,0 +1,196 @@
+"""`exo-pin study`: all devices under many walks and on many bodies, as a tidy table and a page of figures."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from exo_pin.anatomy import Body
+from exo_pin.cli import show
+from exo_pin.cli.clock import moment
+from exo_pin.errors import DescriptionError
+from exo_pin.files import write_text
+from exo_pin.gait import SPEEDS
+
+if TYPE_CHECKING:
+    from exo_pin.study import Case, Outcome, Study
+
+_EXAMPLES = """examples:
+  exo-pin study                                 9 devices, 5 speeds, 10 statures; study.csv and study.html
+  exo-pin study --jobs 2 --step 0.01            finer, on two cores
+  exo-pin study --speeds free --devices exo12 lokomat mine.toml --pelvis recorded -o mine.csv
+  exo-pin study --recordings walks -o walks.csv        every recording in a folder
+
+A study that was interrupted goes on where it was when the same command is given again, and a finished one
+may be given more devices, speeds, statures or recordings: rows that are there are not computed again. A
+recording that cannot be used is told in a line and left out; the exit code is then 1. docs/study.md explains
+the columns, and how the same study runs on a cluster."""
+
+
+_PELVIS: dict[str, tuple[Literal["recorded", "device"], ...]] = {
+    "recorded": ("recorded",),
+    "device": ("device",),
+    "both": ("recorded", "device"),
+}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", default="study.csv", help="the table (default: study.csv)"
+    )
+    parser.add_argument("--page", metavar="FILE", help="the figures (default: the table's name with .html)")
+    parser.add_argument("--no-page", action="store_true", help="the table alone")
+    parser.add_argument("--json", action="store_true", help="print the summary as one JSON object")
+    parser.add_argument("--restart", action="store_true", help="leave the rows of an earlier study behind")
+    parser.add_argument(
+        "--jobs", type=int, default=1, metavar="N", help="processes; -1: one per core (default: 1)"
+    )
+    _configure_plan(parser)
+
+
+def _configure_plan(parser: argparse.ArgumentParser) -> None:
+    plan = parser.add_argument_group("what is studied")
+    plan.add_argument("--devices", nargs="+", metavar="DEVICE", help="names or device files (default: all)")
+    plan.add_argument("--speeds", nargs="+", choices=SPEEDS, help="of the normal walk (default: all five)")
+    plan.add_argument(
+        "--statures", nargs=2, type=float, metavar=("LOW", "HIGH"), help="[m] (default: 1.50 1.95)"
+    )
+    plan.add_argument("--step", type=float, metavar="M", help="between statures [m] (default: 0.05)")
+    plan.add_argument(
+        "--mass", type=float, metavar="KG", help="of every person (default: as stature squared)"
+    )
+    plan.add_argument("--sex", choices=("male", "female"), default="male", help="whose segment masses")
+    plan.add_argument(
+        "--pelvis",
+        choices=_PELVIS,
+        default="both",
+        help="who moves the pelvis: the recorded walk, each device as it can, or both in turn (default)",
+    )
+    plan.add_argument("--passive", choices=("held", "released"), default="held", help="passive joints")
+    plan.add_argument(
+        "--recordings",
+        metavar="DIR",
+        help="every recording in this folder and those below, instead of the normal walk (unless --speeds)",
+    )
+    plan.add_argument(
+        "--preset",
+        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
+        help="sign convention of recordings that do not tell it",
+    )
+    plan.add_argument(
+        "--body",
+        metavar="FILE",
+        help="who wears the recordings (default: the body that a marker trial is solved on, else 1.75 m; or "
+        "every one of --statures)",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Study, write, print."""
+    from exo_pin import study
+
+    _check_names(args)
+    cases, start = _plan(args), time.perf_counter()
+    try:
+        done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
+    except KeyboardInterrupt:
+        print(
+            f"\nstopped; what is done is kept, and the same command goes on ({args.output})", file=sys.stderr
+        )
+        return 130
+    page = "" if args.no_page or not done.rows else _write_page(args, done)
+    facts = _facts(args, done, len(cases), page, time.perf_counter() - start)
+    if args.json:
+        show.as_json(facts)
+    else:
+        _print(facts, done)
+    return (1 if done.rows else 2) if done.failures else 0
+
+
+def _check_names(args: argparse.Namespace) -> None:
+    if Path(args.output).suffix.lower() != ".csv":
+        raise DescriptionError(f"{args.output}: the table of a study ends in .csv")
+    if args.page is not None and Path(args.page).suffix.lower() not in (".html", ".htm"):
+        raise DescriptionError(f"{args.page}: the page of a study ends in .html")
+    if args.jobs == 0:
+        raise DescriptionError("--jobs is 0; a number of processes, or -1 for one per core, is accepted")
+    if args.body and not args.recordings:
+        raise DescriptionError("--body is for --recordings; the normal walk is studied on --statures")
+    if args.body and args.statures:
+        raise DescriptionError("--body and --statures both say who wears the recordings")
+
+
+def _plan(args: argparse.Namespace) -> list[Case]:
+    from exo_pin import devices, study
+    from exo_pin.compare import Conditions
+
+    common: dict[str, Any] = {
+        "devices": args.devices or tuple(devices.DEVICES),
+        "conditions": [Conditions(pelvis, args.passive) for pelvis in _PELVIS[args.pelvis]],
+    }
+    asked = args.statures is not None or args.step is not None
+    low, high = args.statures or study.STATURES
+    of = study.statures(low, high, study.STEP if args.step is None else args.step)
+    cases = []
+    if args.recordings:
+        on: list[Body | None] = [Body.load(args.body)] if args.body else [None]
+        if asked:
+            on = list(study.bodies(of, mass=args.mass, sex=args.sex))
+        cases += study.recordings(args.recordings, on, preset=args.preset, **common)
+    if args.speeds or not args.recordings:
+        cases += study.plan(args.speeds or SPEEDS, of, mass=args.mass, sex=args.sex, **common)
+    return cases
+
+
+def _progress(outcomes: Iterable[Outcome], total: int) -> Iterator[Outcome]:
+    """A bar, and a line for each recording that cannot be used."""
+    for outcome in show.progress(outcomes, "studying", total):
+        if outcome.failure:
+            print(f"left out: {outcome.failure}", file=sys.stderr)
+        yield outcome
+
+
+def _write_page(args: argparse.Namespace, done: Study) -> str:
+    from exo_pin import report
+
+    page = args.page or str(Path(args.output).with_suffix(".html"))
+    write_text(page, report.html(report.study(done.rows, failures=done.failures, when=moment())))
+    return page
+
+
+def _facts(args: argparse.Namespace, done: Study, cases: int, page: str, seconds: float) -> dict[str, Any]:
+    return {
+        "table": args.output if done.rows else None,
+        "page": page or None,
+        "walks": len({(row.gait, row.stature_m) for row in done.rows}),
+        "devices": len({row.device for row in done.rows}),
+        "rows": len(done.rows),
+        "computed": done.computed,
+        "kept": done.kept,
+        "cases": cases,
+        "left_out": done.failures,
+        "seconds": round(seconds, 3),
+    }
+
+
+def _print(facts: dict[str, Any], done: Study) -> None:
+    if not done.rows:
+        print("nothing could be used", file=sys.stderr)
+        return
+    from exo_pin import study
+
+    show.table("Sole error, best motion [mm]", *study.summary(done.rows))
+    print(
+        f"{facts['table']}: {facts['rows']} rows ({facts['kept']} of them from before), "
+        f"{facts['walks']} walks, {facts['devices']} devices, {facts['seconds']:.1f} s"
+    )
+    if facts["page"]:
+        print(f"{facts['page']}: the figures, opens in any browser without a network")
+    if done.failures:
+        print(f"{len(done.failures)} left out (see above)")

@@ -1,0 +1,68 @@
+"""Colours of things that are compared: told apart on a screen, and by their dashes on grey paper too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.report.chart import Curve
+
+Array = npt.NDArray[np.float64]
+
+COLOURS = (
+    "#2975c7",
+    "#d9822b",
+    "#2e8b57",
+    "#b3377e",
+    "#6a4fb3",
+    "#8a6d3b",
+    "#17909a",
+    "#c23b3b",
+    "#6b7480",
+)
+_DASHES = (None, "7 3", "2 3", "8 3 2 3")
+
+
+class Look(NamedTuple):
+    """Colour and dash of a line."""
+
+    colour: str
+    dash: str | None
+
+
+def looks(names: Iterable[str]) -> dict[str, Look]:
+    """A look for each name, the same for the same names in the same order."""
+    return {name: Look(COLOURS[k % len(COLOURS)], _DASHES[k % len(_DASHES)]) for k, name in enumerate(names)}
+
+
+def curves(
+    x: Array, series: Mapping[str, Array], look: Mapping[str, Look], *, same: float
+) -> tuple[Curve, ...]:
+    """A curve for each series `(n,)` over `x` `(n,)`; those that lie on each other are one, under all names.
+
+    Args:
+        x: Where the values are.
+        series: Values by name.
+        look: By name.
+        same: Largest difference of series that count as one.
+    """
+    return tuple(
+        Curve(x, series[names[0]], look[names[0]].colour, " = ".join(names), look[names[0]].dash)
+        for names in coincident(series, same)
+    )
+
+
+def coincident(series: Mapping[str, Array], same: float) -> list[tuple[str, ...]]:
+    """Names of series that differ by no more than `same`, together; NaN is equal to NaN."""
+    groups: list[list[str]] = []
+    for name, values in series.items():
+        for group in groups:
+            if np.allclose(series[group[0]], values, rtol=0, atol=same, equal_nan=True):
+                group.append(name)
+                break
+        else:
+            groups.append([name])
+    return [tuple(group) for group in groups]
