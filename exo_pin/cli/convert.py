@@ -9,6 +9,7 @@ from exo_pin.cli import options
 
 _EXAMPLES = """examples:
   exo-pin convert walk.mot walk.csv
+  exo-pin convert walk.mot walk.csv --model subject.osim    its axes, signs and hips
   exo-pin convert walk.csv walk.mot          the knee is written positive, and the header says so
   exo-pin convert free normal.csv            a normal walk as a file
   exo-pin convert walk.trc walk.npz          markers by inverse kinematics on a body scaled to them

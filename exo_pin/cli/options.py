@@ -43,7 +43,8 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     walk = trials.gait(args)
     if walk is None:
         mapping = {column: str(joint) for column, joint in map(_column, args.map)}
-        walk = load(args.gait, body, preset=args.preset, mapping=mapping, units=args.units)
+        told = {"preset": args.preset, "mapping": mapping, "units": args.units}
+        walk = load(args.gait, body, **told, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {walk.source}", file=sys.stderr)
     from exo_pin.gait import doubts
@@ -65,7 +66,9 @@ def load(name: str, body: Body, **reading: Any) -> Gait:
     """A gait by file or speed; a normal walk's stride time follows the body's legs."""
     if name in SPEEDS and not Path(name).exists():
         if any(reading.values()):
-            raise DescriptionError(f"{name} is a normal walk; --preset, --map and --units are for files")
+            raise DescriptionError(
+                f"{name} is a normal walk; --preset, --map, --units and --model are for files"
+            )
         from exo_pin.gait import normative_gait
 
         return normative_gait(name, leg_length=body.leg_length)

@@ -6,7 +6,9 @@ import argparse
 import sys
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from exo_pin.errors import FormatError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
@@ -29,8 +31,24 @@ def add(parser: argparse.ArgumentParser) -> None:
         "COLUMN holds the joint there",
     )
     group.add_argument("--units", choices=("deg", "rad"), help="of a mapped table's angles")
+    group.add_argument(
+        "--model",
+        metavar="OSIM",
+        help="the OpenSim model of a .mot: axes, order and signs of its coordinates",
+    )
+    group.add_argument(
+        "--pelvis-order",
+        metavar="A,B,C",
+        help="without a model: the pelvis's turns from the ground on (default: tilt,list,rotation)",
+    )
     group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
+
+
+def opensim(args: argparse.Namespace) -> dict[str, Any]:
+    """What the user says of OpenSim's coordinates, as `load_gait` takes it."""
+    order = None if args.pelvis_order is None else args.pelvis_order.split(",")
+    return {"model": args.model, "pelvis_order": order}
 
 
 def found(args: argparse.Namespace) -> Reconstruction | None:
@@ -62,6 +80,8 @@ def gait(args: argparse.Namespace) -> Gait | None:
     trial = found(args)
     if trial is None:
         return None
+    if args.model or args.pelvis_order:
+        raise FormatError(args.gait, "a model and an order of the pelvis's turns are for .mot and .sto files")
     worst = trial.worst.max() * 1e3
     print(
         f"markers ({trial.marker_set}): RMS {trial.total_rms * 1e3:.1f} mm, worst frame "

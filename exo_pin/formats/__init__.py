@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -83,6 +83,8 @@ def load_gait(
     preset: str | None = None,
     mapping: Mapping[str, str] = MappingProxyType({}),
     units: str | None = None,
+    model: str | Path | None = None,
+    pelvis_order: Sequence[str] | None = None,
 ) -> Gait:
     """Read a walk from a file; its ending tells the format.
 
@@ -92,17 +94,25 @@ def load_gait(
         mapping: The file's column -> our joint (or `time`), for tables and trajectories with names of their
             own. `-column` turns the sign, a number instead of a column holds the joint there.
         units: `"deg"` or `"rad"`, where a table's column names do not say.
+        model: The OpenSim model (.osim) of a .mot or .sto file: it tells axes, order and signs of pelvis and
+            legs and where the hips are.
+        pelvis_order: Without a model: how the pelvis's turns follow each other from the ground on, e.g.
+            `("rotation", "list", "tilt")`; None: tilt, list, rotation.
 
     Raises:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
-        UnknownNameError: There is no such preset, joint or unit.
+        UnknownNameError: There is no such preset, joint, unit or order.
     """
     path = Path(path)
     if path.suffix.lower() in MARKER_FORMATS and path.suffix.lower() not in FORMATS:
         raise FormatError(path, "holds markers, not angles; exo_pin.markers makes a walk of them")
-    return _format(path, FORMATS | dict.fromkeys(MARKER_FORMATS, FORMATS[".c3d"])).read(
-        path, Reading(preset, mapping, units)
-    )
+    read = _format(path, FORMATS | dict.fromkeys(MARKER_FORMATS, FORMATS[".c3d"])).read
+    if read is not opensim.read_gait and (model or pelvis_order):
+        raise FormatError(
+            path, "a model (.osim) or an order of the pelvis's turns is for .mot and .sto files"
+        )
+    order = None if pelvis_order is None else tuple(pelvis_order)
+    return read(path, Reading(preset, mapping, units, None if model is None else Path(model), order))
 
 
 def load_markers(path: str | Path) -> Markers:

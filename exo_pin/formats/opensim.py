@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from exo_pin.anatomy import SIDES
+from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import FormatError
+from exo_pin.formats.convention import Convention, by_habit, by_model, habit_of, hip_angles
 from exo_pin.formats.notes import Notes, read, to_gait, to_lines
 from exo_pin.formats.pelvis import from_opensim, to_opensim
 from exo_pin.formats.presets import OPENSIM, PRESETS, Preset, inferred, preset
@@ -32,6 +34,8 @@ COORDINATES = {
 LEGS = tuple(f"{name}_{side[0]}" for side in SIDES for name in COORDINATES.values())
 """OpenSim's names in the order of `JOINTS`."""
 
+COLUMNS = dict(zip(JOINTS, LEGS, strict=True))
+
 KNEES = ("knee_angle_l", "knee_angle_r")
 ANGLES = ("pelvis_tilt", "pelvis_list", "pelvis_rotation")
 DERIVATIVES = ("speeds", "velocities", "accelerations")
@@ -47,11 +51,12 @@ MID_HIP = WRITTEN.mid_hip or (0.0, 0.0, 0.0)
 def read_gait(path: Path, reading: Reading) -> Gait:
     """Read joint coordinates; the pelvis's motion, if there, becomes the base.
 
-    The knee's sign comes from the preset, if one is named, else from our own header line, else from the
-    angles where at least 90 % of the excursion lies on one side; `source` then tells so. OpenSim's axes (x
-    forward, y up, z right) become ours, and the base's origin is put midway between the hips with the
-    *generic* model's offset (gait2392: (-0.0707, -0.0661, 0) m in the pelvis). Toes, trunk and arms are left
-    out.
+    A model (`reading.model`, an .osim file) tells the axes and signs of pelvis and legs and where the hips
+    are. Without one the pelvis turns in OpenSim's usual order (or `reading.pelvis_order`), the base's origin
+    is put midway between the hips with the *generic* model's offset (gait2392: (-0.0707, -0.0661, 0) m in the
+    pelvis), and the knee's sign comes from the preset, if one is named, else from our own header line, else
+    from the angles where at least 90 % of the excursion lies on one side; `source` tells all that. OpenSim's
+    axes (x forward, y up, z right) become ours. Toes, trunk and arms are left out.
 
     Raises:
         FormatError: With file, line and reason: forces, velocities, missing coordinates, no `inDegrees`,
@@ -61,22 +66,45 @@ def read_gait(path: Path, reading: Reading) -> Gait:
     reading.refuse(path, "mapping", "units", why="its names and its header tell")
     chosen = None if reading.preset is None else preset(reading.preset, OPENSIM)
     storage = read_storage(path)
-    table = _coordinates(storage)
+    means = _means(reading)
+    table = _coordinates(storage, means)
     time, degrees = table.times(TIME), _in_degrees(storage)
-    q = table.angles(LEGS, degrees=degrees)
+    values, held = _values(table, means, degrees)
+    chosen, how = (chosen, "as told") if chosen else _sign(storage, values, means)
+    base = None
+    if set(means.pelvis) & set(table.names) and chosen.mid_hip is not None:
+        base = from_opensim(means.chain, values, means.mid_hip or chosen.mid_hip)
     notes = read(path, storage.notes)
-    chosen, how = (chosen, "as told") if chosen else _sign(storage, table, degrees)
-    q[:, [LEGS.index(knee) for knee in KNEES]] *= chosen.knee
     if notes.source is None:
         sign = "positive" if chosen.knee > 0 else "negative"
-        notes = notes._replace(source=f"{path.name}, read as {chosen.name}: knee {sign} in flexion ({how})")
-    return to_gait(path, time, q, _base(table, degrees, chosen), notes)
+        said = [f"{path.name}, read as {chosen.name}: knee {sign} in flexion ({how})"]
+        said += [means.said] if base is not None or reading.model else []
+        said += [f"not in the file, so at the model's default: {', '.join(held)}"] if held else []
+        notes = notes._replace(source="; ".join(said))
+    return to_gait(path, time, _legs(values, chosen, means), base, notes)
 
 
-def preset_of(path: Path) -> str:
+def preset_of(path: Path, *, model: Path | None = None) -> str:
     """The preset whose signs a file of coordinates has, as `read_gait` finds it; errors as there."""
-    storage = read_storage(path)
-    return _sign(storage, _coordinates(storage), _in_degrees(storage))[0].name
+    storage, means = read_storage(path), _means(Reading(model=model))
+    values, _ = _values(_coordinates(storage, means), means, _in_degrees(storage))
+    return _sign(storage, values, means)[0].name
+
+
+def _means(reading: Reading) -> Convention:
+    if reading.model is None:
+        return by_habit(reading.pelvis_order)
+    return by_model(reading.model, COLUMNS)
+
+
+def _legs(values: Mapping[str, Array], chosen: Preset, means: Convention) -> Array:
+    """`(n, 12)` angles [rad] with our signs."""
+    q = np.column_stack([values[name] for name in LEGS])
+    q *= [chosen.knee if c in KNEES else means.signs.get(name, 1) for name, c in COLUMNS.items()]
+    for side, hip in means.hips.items():
+        k = JOINTS.index(f"{side}_hip_flexion")
+        q[:, k : k + 3] = hip_angles(hip, side, values)
+    return q
 
 
 def write_gait(gait: Gait, path: Path) -> None:
@@ -95,7 +123,7 @@ def write_gait(gait: Gait, path: Path) -> None:
     write_storage(path, "Coordinates", remarks, [*names, *LEGS], values, degrees=True)
 
 
-def _coordinates(storage: Storage) -> Table:
+def _coordinates(storage: Storage, means: Convention) -> Table:
     """The table with plain coordinate names; refuses what holds no coordinates."""
     table, path = storage.table, storage.table.path
     line = table.lines[0] - 1
@@ -105,18 +133,34 @@ def _coordinates(storage: Storage) -> Table:
         )
     names = tuple(_plain(name) for name in table.names)
     times = Counter(names)
-    twice = [name for name in (TIME, *LEGS, *ANGLES, *TRANSLATIONS) if times[name] > 1]
+    twice = [name for name in (TIME, *LEGS, *means.pelvis) if times[name] > 1]
     if twice:
         raise FormatError(path, f"coordinate {twice[0]!r} occurs more than once", line=line)
-    gone = [name for name in (TIME, *LEGS) if name not in times]
+    gone = [name for name in (TIME, *LEGS) if name not in times and name not in means.defaults]
     if gone and any(re.search(r"force|moment|torque", name, re.IGNORECASE) for name in names):
         raise FormatError(
             path, "holds forces or moments; expected joint coordinates (inverse kinematics)", line=line
         )
-    pelvis = [name for name in (*ANGLES, *TRANSLATIONS) if name not in times]
-    if gone or 0 < len(pelvis) < 6:
+    pelvis = [name for name in means.pelvis if name not in times and name not in means.defaults]
+    if gone or 0 < len(pelvis) < len(means.pelvis):
         raise FormatError(path, f"missing coordinates: {', '.join(gone or pelvis)}", line=line)
     return Table(path, names, table.values, table.lines)
+
+
+def _values(table: Table, means: Convention, degrees: bool) -> tuple[dict[str, Array], list[str]]:
+    """Coordinates of legs and pelvis `(n,)` [rad, m], and which of them the model's defaults gave."""
+    wanted = list(dict.fromkeys([*LEGS, *means.pelvis]))
+    there = [name for name in wanted if name in table.names]
+    slides = [name for name in there if name not in (*LEGS, *means.turning)]
+    turning = [name for name in there if name not in slides]
+    if not set(means.pelvis) & set(there):
+        wanted = list(LEGS)
+    table.angles([name for name in turning if name in LEGS], degrees=degrees)  # refuses what is absurd
+    values = dict(zip(turning, table.columns(turning).T * (np.pi / 180 if degrees else 1.0), strict=True))
+    values |= dict(zip(slides, table.columns(slides).T, strict=True))
+    held = [name for name in wanted if name not in values]
+    n = len(table.values)
+    return values | {name: np.full(n, means.defaults.get(name, 0.0)) for name in held}, held
 
 
 def _plain(name: str) -> str:
@@ -135,24 +179,19 @@ def _in_degrees(storage: Storage) -> bool:
     return said.lower() == "yes"
 
 
-def _sign(storage: Storage, table: Table, degrees: bool) -> tuple[Preset, str]:
+def _sign(storage: Storage, values: Mapping[str, Array], means: Convention) -> tuple[Preset, str]:
     """Whose signs the file has, and how that is known."""
+    told = {means.signs.get(name, 0) for name, column in COLUMNS.items() if column in KNEES}
+    if told in ({1}, {-1}):
+        return PRESETS[habit_of(told.pop())], "so its model"
     for note in storage.notes:
         if note.key == "preset" and note.value in OPENSIM:
             return PRESETS[note.value], "its header says so"
-    found = inferred(table.angles(KNEES, degrees=degrees))
+    found = inferred(np.column_stack([values[knee] for knee in KNEES]))
     if found is None:
         raise FormatError(
-            table.path,
+            storage.table.path,
             "the sign of the knee is not clear: knee_angle_l and _r bend less than 15 degrees or lie on both "
-            f"sides of 0; name the model with a preset: {', '.join(OPENSIM)}",
+            f"sides of 0; name the model with a preset ({', '.join(OPENSIM)}) or give its .osim file",
         )
     return found[0], f"inferred: {100 * found[1]:.0f} % of its excursion"
-
-
-def _base(table: Table, degrees: bool, chosen: Preset) -> Array | None:
-    if ANGLES[0] not in table.names or chosen.mid_hip is None:
-        return None
-    angles = table.columns(ANGLES)
-    angles = np.radians(angles) if degrees else angles
-    return from_opensim(angles, table.columns(TRANSLATIONS), chosen.mid_hip)

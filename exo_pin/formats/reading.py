@@ -20,11 +20,15 @@ class Reading(NamedTuple):
         preset: Name of a sign convention, one of `PRESETS`.
         mapping: The file's column -> our joint or `time`.
         units: `"deg"` or `"rad"`.
+        model: The OpenSim model (.osim) that a file of coordinates belongs to.
+        pelvis_order: The order of the pelvis's turns, where there is no model: names of `pelvis.TURNS`.
     """
 
     preset: str | None = None
     mapping: Mapping[str, str] = MappingProxyType({})
     units: str | None = None
+    model: Path | None = None
+    pelvis_order: tuple[str, ...] | None = None
 
     def refuse(self, path: Path, *names: str, why: str) -> None:
         """Raise `FormatError` if one of these was said although the format leaves no choice."""

@@ -1,0 +1,92 @@
+"""One joint of an OpenSim model: axes, coordinates and offsets, and the transform they make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Vector = tuple[float, float, float]
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+class Axis(NamedTuple):
+    """A turn about, or a slide along, one axis by `slope * coordinate + offset`.
+
+    Attributes:
+        vector: `(3,)` of length 1.
+        coordinate: Name, or "" where the axis is at rest.
+        slope: Per unit of the coordinate; of a curve its mean.
+        offset: At coordinate 0 [rad or m].
+        linear: False where the amount is a curve (a spline) and slope and offset are not the whole truth.
+    """
+
+    vector: Vector
+    coordinate: str = ""
+    slope: float = 1.0
+    offset: float = 0.0
+    linear: bool = True
+
+
+class Joint(NamedTuple):
+    """A joint between two bodies.
+
+    Attributes:
+        name: In the model.
+        parent: Body it hangs on; `ground` for the first.
+        child: Body that it carries.
+        in_parent: `(4, 4)` the joint's frame in the parent body.
+        in_child: `(4, 4)` the joint's frame in the child body.
+        turns: One after the other, each about an axis of the frame that the ones before have turned.
+        slides: Along axes of the joint's frame in the parent, before all turns.
+    """
+
+    name: str
+    parent: str
+    child: str
+    in_parent: Array
+    in_child: Array
+    turns: tuple[Axis, ...]
+    slides: tuple[Axis, ...]
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of what moves it, without repetition: turns, then slides."""
+        return tuple(dict.fromkeys(a.coordinate for a in (*self.turns, *self.slides) if a.coordinate))
+
+    def placed(self, values: Mapping[str, Array]) -> Array:
+        """T_parent_child `(n, 4, 4)` for coordinates `(n,)` [rad, m]."""
+        n = len(next(iter(values.values())))
+        T = np.tile(np.eye(4), (n, 1, 1))
+        for axis in self.slides:
+            T[:, :3, 3] += np.outer(_amount(axis, values, n), axis.vector)
+        for axis in self.turns:
+            T[:, :3, :3] = T[:, :3, :3] @ turned(axis.vector, _amount(axis, values, n))
+        out = self.in_parent @ T @ np.linalg.inv(self.in_child)
+        return np.asarray(out)
+
+
+def _amount(axis: Axis, values: Mapping[str, Array], n: int) -> Array:
+    moved = axis.slope * values[axis.coordinate] if axis.coordinate else np.zeros(n)
+    return np.asarray(moved + axis.offset)
+
+
+def turned(axis: Sequence[float], angle: Array) -> Array:
+    """`(n, 3, 3)` rotations by angles `(n,)` [rad] about a vector of length 1 (Rodrigues)."""
+    x, y, z = axis
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    sin, cos = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]
+    return np.asarray(np.eye(3) + sin * K + (1 - cos) * (K @ K))
+
+
+def offset(translation: Sequence[float], orientation: Sequence[float]) -> Array:
+    """`(4, 4)` of an offset frame: translation [m], and turns about x, then y, then z of the turned frame."""
+    T = np.eye(4)
+    for axis, angle in zip((X, Y, Z), orientation, strict=True):
+        T[:3, :3] = T[:3, :3] @ turned(axis, np.array([angle]))[0]
+    T[:3, 3] = translation
+    return T
