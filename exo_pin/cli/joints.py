@@ -20,7 +20,7 @@ _EXAMPLES = """examples:
   exo-pin joints walk.mot -o pareto.svg     the figure; also .md, .csv (all 64 choices) and .json
 
 Every choice of the six movements of a leg is tried, the same on both legs: what the soles then miss when the
-device does its best and the pelvis moves as recorded. It takes about half a minute."""
+device does its best and the pelvis moves as recorded."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError(f"{args.output}: {', '.join(_WRITERS)} are accepted")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
-    study = worth(gait, body, progress=lambda choices: show.progress(list(choices), "choices of joints"))
+    study = worth(gait, body)
     if args.json:
         show.as_json(study.facts())
     else:

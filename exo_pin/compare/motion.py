@@ -135,11 +135,8 @@ def best(
     """The device's best motion towards the recorded feet, within its joint limits."""
     base = _stand(recorded, robot, conditions)
     asked = _asked(recorded, base)
-    targets = {
-        foot: ik.Points(_soles(recorded.robot)[k], recorded.corners[:, k]) for k, foot in enumerate(FEET)
-    }
     start = _copy(recorded, robot, asked)
-    track = ik.track(robot, targets, start, base=base, settings=settings)
+    track = ik.track(robot, sole_targets(robot, recorded.corners), start, base=base, settings=settings)
     return _motion(recorded, robot, track.q, base, asked)
 
 
@@ -147,6 +144,11 @@ def corners(robot: Robot, feet: Array) -> Array:
     """Sole corners (..., 2, 4, 3) in the world of feet (..., 2, 4, 4) [m]."""
     local = _soles(robot)
     return np.asarray(local @ feet[..., :3, :3].swapaxes(-1, -2) + feet[..., None, :3, 3])
+
+
+def sole_targets(robot: Robot, wanted: Array) -> dict[str, ik.Points]:
+    """Where the feet's sole corners shall be (n, 2, 4, 3), as targets for inverse kinematics."""
+    return {foot: ik.Points(_soles(robot)[k], wanted[:, k]) for k, foot in enumerate(FEET)}
 
 
 def _soles(robot: Robot) -> Array:

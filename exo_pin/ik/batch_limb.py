@@ -8,24 +8,28 @@ are those of `dls`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from exo_pin.ik import normal
-from exo_pin.ik.branches import Branches
+from exo_pin.ik.branches import Branches, branches
 from exo_pin.ik.limb import Limb
-from exo_pin.ik.problem import Problem
+from exo_pin.ik.problem import Problem, problem
 from exo_pin.ik.pull import Aim, Pull, aims, pull
 from exo_pin.ik.sequential import reachable
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
 from exo_pin.ik.starts import starts
-from exo_pin.ik.targets import CHUNK, Goal
+from exo_pin.ik.targets import CHUNK, Goal, Target
+from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
+SETTLED = Dls(tolerance=1e-10)
+"""Settings of a compromise: no target is expected to be met."""
 _FLOOR = 1e-12  # keeps the equations definite where a joint moves nothing
 _STUCK = 1e-11  # a step this small changes nothing any more [rad, m]
 _ROUNDED = 1e-8  # the next quadratic step is below rounding: a cost that does not fall is at its least
@@ -50,6 +54,39 @@ class Answers:
         self.steps[where] += other.steps
         for name in ("q", "errors", "cost"):
             getattr(self, name)[..., where[good]] = getattr(other, name)[..., good]
+
+
+def settle(
+    robot: Robot,
+    targets: Mapping[str, Target],
+    seed: Array,
+    lower: Array,
+    upper: Array,
+    *,
+    base: Array,
+    settings: Dls = SETTLED,
+) -> Array:
+    """The compromise that each sample's seed leads to, within limits of each sample's own.
+
+    Args:
+        robot: A robot of plain turns and slides, its base given.
+        targets: As in `exo_pin.ik.track`.
+        seed: Where each sample starts (n, nq).
+        lower: Lower limits (n, nq); a joint between equal limits stands there.
+        upper: Upper limits (n, nq).
+        base: T_world_pelvis (n, 4, 4).
+        settings: Tolerance, weights and number of steps; there are no restarts.
+
+    Returns:
+        Configurations (n, nq).
+    """
+    task, q = problem(robot, targets, seed, base), np.clip(seed, lower, upper)
+    for limb in task.limbs:
+        joints = branches(limb)
+        assert joints is not None  # as the docstring asks
+        limits = lower[:, limb.q].T, upper[:, limb.q].T
+        q[:, limb.q] = descend(joints, task.goals_of(limb), seed[:, limb.q].T, *limits, settings).q.T
+    return q
 
 
 def together(task: Problem, limb: Limb, joints: Branches, settings: Dls, sheet: Sheet) -> None:
