@@ -46,9 +46,15 @@ def axis(kind, k, coordinate, vector, version, slope=1.0):
     )
 
 
+def resting(some):
+    """Axes for which nobody asks, but which OpenSim wants: those furthest from the others first."""
+    return [
+        ("", v) for v in sorted((X, Y, Z), key=lambda v: max([abs(np.dot(v, a)) for _, a in some], default=0))
+    ]
+
+
 def spatial(turns, slides, version, slope):
-    turns = [*turns, *[("", v) for v in (Z, X, Y)]][:3]
-    slides = [*slides, *[("", v) for v in (X, Y, Z)]][:3]
+    turns, slides = ([*some, *resting(some)][:3] for some in (turns, slides))
     rows = [axis("rotation", k, *turn, version, slope) for k, turn in enumerate(turns)]
     rows += [axis("translation", k, *slide, version) for k, slide in enumerate(slides)]
     return f"<SpatialTransform>{''.join(rows)}</SpatialTransform>"
