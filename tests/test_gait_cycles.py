@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import Event, Gait, against_normal, cycles, doubts, normative_gait, plates, spatiotemporal
+from exo_pin.gait import (
+    SPEEDS,
+    Event,
+    Gait,
+    against_normal,
+    cycles,
+    doubts,
+    normal,
+    normative_gait,
+    norms,
+    plates,
+    spatiotemporal,
+)
+from exo_pin.kinematics import spatiotemporal as of_walk
+from exo_pin.robot import load_robot
 
 CURVE = np.radians(0.05)  # [rad] cubic pieces through 100 samples of a smooth cycle
 EXACT = 1e-9
@@ -106,6 +121,34 @@ def test_lengths_are_over_the_ground_whatever_the_heading_or_the_belt(belt, head
     assert numbers["stride_length"].sd == pytest.approx(0, abs=1e-6)
 
 
+def test_steps_of_a_periodic_walk_are_counted_once():
+    numbers = of_walk(load_robot(), normative_gait("free"))
+    assert {name: number.n for name, number in numbers.items() if name != "stride_length"} == {
+        name: 2 if name in ("cadence", "speed", "stride_time", "step_width", "double_support") else 1
+        for name in numbers
+        if name != "stride_length"
+    }
+    assert numbers["left_step_length"].mean == pytest.approx(numbers["right_step_length"].mean, rel=0.01)
+
+
+def test_symmetry_has_a_spread_over_the_cycles(rng):
+    time, path, events = heels()
+    late = [replace(e, time=e.time + 0.02 * rng.normal()) for e in events if 0.2 < e.time < time[-1] - 0.2]
+    found = spatiotemporal(time, path, late)["step_time_symmetry"]
+    assert found.n > 2
+    assert 0 < found.sd < 20
+
+
+@pytest.mark.parametrize("legs", [0.7, 1.0, 1.4])
+def test_over_ground_the_speed_is_the_persons_whatever_legs_the_model_has(legs):
+    """Feet of legs of another length seem to slide; over ground that is no treadmill."""
+    time, path, events = heels()
+    pelvis = np.stack([STRIDE / PERIOD * time, 0 * time], axis=1)
+    seen = pelvis[:, None] + legs * (path[..., :2] - pelvis[:, None])
+    numbers = spatiotemporal(time, seen, events, pelvis=pelvis)
+    assert numbers["speed"].mean == pytest.approx(STRIDE / PERIOD, abs=1e-6)
+
+
 def test_a_limp_shows_in_step_time_and_symmetry():
     numbers = spatiotemporal(*heels(shift=0.4))
     assert numbers["right_step_time"].mean == pytest.approx(0.4 * PERIOD)
@@ -113,12 +156,52 @@ def test_a_limp_shows_in_step_time_and_symmetry():
     assert numbers["step_time_symmetry"].mean == pytest.approx(40)
 
 
-def test_numbers_are_compared_with_the_usual_ranges():
+LEG = 0.93  # [m]
+
+
+def test_numbers_are_compared_with_published_ranges_that_name_their_source():
     time, path, events = heels()
-    assert against_normal(spatiotemporal(time, path, events))["speed"] == "within"
-    small = against_normal(spatiotemporal(time, path * 0.5, events))
-    assert small["speed"] == "below"
-    assert small["left_stance"] == "within"
+    numbers = spatiotemporal(time, path, events)
+    assert against_normal(numbers, leg_length=LEG)["speed"] == "within"
+    usual = normal(numbers, leg_length=LEG)
+    assert {norm.source for norm in usual.values()} == set(norms.CITATIONS)
+    assert {name for name, norm in usual.items() if norm.source == norms.SCHWARTZ} >= {
+        "cadence",
+        "stride_length",
+        "left_step_length",
+        "right_stance",
+        "left_swing",
+        "double_support",
+    }
+    assert "step_time_symmetry" not in usual  # nobody's numbers were checked
+    slow = spatiotemporal(time, path * 0.5, events)
+    assert against_normal(slow, leg_length=LEG)["speed"] == "below"
+    assert against_normal(slow, leg_length=LEG)["left_step_length"] == "below"
+
+
+def test_ranges_follow_the_leg_and_the_speed():
+    """Dimensionless numbers: twice the leg and root two the speed is the same walk, twice as large."""
+    time, path, events = heels()
+    numbers = spatiotemporal(time, path, events)
+    large = spatiotemporal(
+        time * np.sqrt(2), path * 2, [replace(e, time=e.time * np.sqrt(2)) for e in events]
+    )
+    small_range, large_range = normal(numbers, leg_length=LEG), normal(large, leg_length=2 * LEG)
+    assert large_range["stride_length"].low == pytest.approx(2 * small_range["stride_length"].low)
+    assert large_range["cadence"].high == pytest.approx(small_range["cadence"].high / np.sqrt(2))
+    assert large_range["left_stance"].low == pytest.approx(small_range["left_stance"].low)
+    crawl = spatiotemporal(time * 10, path, [replace(e, time=e.time * 10) for e in events])
+    assert set(normal(crawl, leg_length=LEG)) == {"speed", "step_width"}  # slower than anybody in the source
+    assert set(normal(numbers, leg_length=float("nan"))) == {"speed"}
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_the_source_walk_lies_within_its_own_ranges(speed):
+    """Events and cadence of the normal walk are Schwartz's own means, its lengths this body's."""
+    robot = load_robot()
+    verdicts = against_normal(of_walk(robot, normative_gait(speed)), leg_length=robot.body.leg_length)
+    for name in ("cadence", "left_stance", "right_swing", "double_support"):
+        assert verdicts[name] == "within", name
 
 
 def test_without_two_strikes_of_a_foot_there_are_no_numbers():

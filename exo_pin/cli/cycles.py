@@ -28,7 +28,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="FILE", help="table of mean and sd over the cycle (.csv)")
     parser.add_argument("--mean", metavar="FILE", help="the mean cycle as a gait file")
     parser.add_argument(
-        "--side", choices=SIDES, default="left", help="whose heel strikes cut (default: left)"
+        "--side",
+        choices=SIDES,
+        help="whose heel strikes cut (default: left, or right if only that has cycles)",
     )
     parser.add_argument("--cutoff", type=float, metavar="HZ", help="low-pass the angles first")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -49,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     if not gait.events:
         gait = dataclasses.replace(gait, events=events(robot, gait))
-    cut = cycles(gait, args.side)
+    cut = cycles(gait, args.side or _side(gait))
     found = facts(robot, gait)
     if args.json:
         show.as_json(found)
@@ -58,62 +60,88 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         _write(args.output, cut, gait.source)
     if args.mean:
-        save_gait(cut.average(f"{gait.source}; mean of {len(cut)} {args.side} cycles"), args.mean)
+        save_gait(cut.average(f"{gait.source}; mean of {len(cut)} {cut.side} cycles"), args.mean)
     return 0
 
 
+def _side(gait: Gait) -> str:
+    """Left, or right where only the right foot has cycles."""
+    from exo_pin.gait import strides
+    from exo_pin.gait.strides import unrolled
+
+    whole = [any(not stride.why for stride in strides(unrolled(gait), side)) for side in SIDES]
+    return SIDES[whole == [False, True]]
+
+
 def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
-    """Number of cycles by side and the spatiotemporal numbers; empty where there are no cycles."""
-    from exo_pin.gait import against_normal, cycles
+    """Cycles by side, spans that are none and why, the spatiotemporal numbers; or why there are none."""
+    from exo_pin.gait import against_normal, normal, strides
+    from exo_pin.gait.norms import CITATIONS
+    from exo_pin.gait.strides import unrolled
     from exo_pin.kinematics import spatiotemporal
 
+    none: dict[str, Any] = {"cycles": {}, "left_out": [], "spatiotemporal": {}, "sources": {}}
     try:
         numbers = spatiotemporal(robot, gait)
-    except GaitError:
-        return {"cycles": {}, "spatiotemporal": {}}
-    counts = {}
-    for side in SIDES:
-        try:
-            counts[side] = len(cycles(gait, side))
-        except GaitError:
-            counts[side] = 0
-    usual = against_normal(numbers)
+    except GaitError as error:
+        return none | {"no_cycles": str(error)}
+    spans = [span for side in SIDES for span in strides(unrolled(gait), side)]
+    legs = robot.body.leg_length if robot.body else float("nan")
+    usual, verdicts = normal(numbers, leg_length=legs), against_normal(numbers, leg_length=legs)
     return {
-        "cycles": counts,
+        "cycles": {side: sum(span.side == side and not span.why for span in spans) for side in SIDES},
+        "left_out": [
+            {"side": x.side, "start_s": x.start, "end_s": x.end, "why": x.why} for x in spans if x.why
+        ],
         "spatiotemporal": {
             name: {
                 "mean": x.mean,
                 "sd": None if x.sd != x.sd else x.sd,
                 "n": x.n,
                 "unit": x.unit,
-                "normal": usual.get(name),
+                "normal": verdicts.get(name),
+                "usual": usual[name]._asdict() if name in usual else None,
             }
             for name, x in numbers.items()
         },
+        "sources": {key: CITATIONS[key] for key in CITATIONS if key in {x.source for x in usual.values()}},
+        "no_cycles": "",
     }
 
 
-def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
-    from exo_pin.gait.spatiotemporal import NORMAL_SOURCE
+def print_left_out(found: dict[str, Any]) -> None:
+    """Spans between heel strikes that are no strides, and why."""
+    for span in found["left_out"]:
+        print(f"left out: {span['side']} {span['start_s']:.2f} .. {span['end_s']:.2f} s: {span['why']}")
 
+
+def _rounded(value: float, unit: str) -> str:
+    """Lengths and times to the millimetre and millisecond, the rest to a tenth."""
+    return show.fixed(value, 3 if unit in ("m", "s", "m/s") else 1)
+
+
+def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
+    sources = list(found["sources"])
     rows = [
         [
-            name,
-            f"{x['mean']:.3f}",
-            "-" if x["sd"] is None else f"{x['sd']:.3f}",
+            f"{name.replace('_', ' ')}, {x['unit']}",
+            _rounded(x["mean"], x["unit"]),
+            "-" if x["sd"] is None else _rounded(x["sd"], x["unit"]),
             str(x["n"]),
-            x["unit"],
-            x["normal"] or "",
+            f"{x['usual']['low']:.3g} .. {x['usual']['high']:.3g}" if x["usual"] else "-",
+            x["normal"] or "-",
+            str(sources.index(x["usual"]["source"]) + 1) if x["usual"] else "-",
         ]
         for name, x in found["spatiotemporal"].items()
     ]
-    title = f"{args.gait}: {len(cut)} cycles of the {cut.side} foot"
-    show.table(title, ["number", "mean", "sd", "n", "unit", "usual range"], rows)
-    print(f"usual: {NORMAL_SOURCE}")
+    title = f"{args.gait}: {len(cut)} cycle{'s' * (len(cut) != 1)} of the {cut.side} foot"
+    show.table(title, ["number", "mean", "sd", "n", "usual", "this", "source"], rows)
+    for k, citation in enumerate(found["sources"].values()):
+        print(f"{k + 1}  {citation}")
+    print("-  no published range was checked")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
-    if cut.skipped:
-        print(f"left out, too long: strides from {', '.join(f'{t:.2f}' for t in cut.skipped)} s")
+    print_left_out(found)
 
 
 def _write(path: str, cut: Cycles, source: str) -> None:

@@ -58,7 +58,8 @@ def _print_walk(facts: dict[str, Any]) -> None:
         speed, cadence = (facts["spatiotemporal"].get(name, {}) for name in ("speed", "cadence"))
         print(f"cycles: {counts}; {speed['mean']:.2f} m/s, {cadence['mean']:.0f} steps/min (exo-pin cycles)")
     else:
-        print("cycles: no gait cycles found")
+        print(f"cycles: {facts['no_cycles']}")
+    cycles.print_left_out(facts)
     print("plausible" if not facts["doubts"] else "doubtful: " + "; ".join(facts["doubts"]))
 
 

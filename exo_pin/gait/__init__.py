@@ -5,24 +5,29 @@ from exo_pin.gait.doubts import doubts
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.events import zeni
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
-from exo_pin.gait.spatiotemporal import NORMAL, Number, against_normal, spatiotemporal
+from exo_pin.gait.norms import Norm, against_normal, normal
+from exo_pin.gait.spatiotemporal import Number, spatiotemporal
+from exo_pin.gait.strides import Stride, strides
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.walk import Gait
 
 __all__ = [
     "EVENT_KINDS",
-    "NORMAL",
     "SPEEDS",
     "Cycles",
     "Event",
     "Gait",
+    "Norm",
     "Number",
+    "Stride",
     "Torques",
     "against_normal",
     "cycles",
     "doubts",
+    "normal",
     "normative_gait",
     "normative_sd",
     "spatiotemporal",
+    "strides",
     "zeni",
 ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
 from exo_pin.gait.checks import read_only
+from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.walk import Gait
 
 Array = NDArray[np.float64]
@@ -26,9 +26,6 @@ ODD = 3.0
 ODD_ANGLE = np.radians(3.0)
 """... if it is also this far off [rad, rms over cycle and joints]."""
 
-LONGEST = 3.0
-"""A stride longer than this many median strides holds a pause or a missed event."""
-
 
 @dataclass(frozen=True, eq=False)
 class Cycles:
@@ -39,14 +36,14 @@ class Cycles:
         q: `(k, points, 12)` joint angles of both legs, in the order of `JOINTS` [rad].
         start: `(k,)` heel strikes that begin the cycles [s].
         duration: `(k,)` stride times [s].
-        skipped: Times [s] of heel strikes whose stride was left out: longer than three median strides.
+        skipped: Strides that were left out, with the reasons: pauses, turns, missed events.
     """
 
     side: str
     q: Array
     start: Array
     duration: Array
-    skipped: tuple[float, ...] = ()
+    skipped: tuple[Stride, ...] = ()
 
     def __len__(self) -> int:
         """Number of cycles k."""
@@ -96,36 +93,30 @@ def cycles(gait: Gait, side: str = "left", *, points: int = POINTS) -> Cycles:
     A periodic gait is one cycle and more: it is followed around its end.
 
     Raises:
-        GaitError: Fewer than two heel strikes of that foot.
+        GaitError: Fewer than two heel strikes of that foot, or no stride of a walk between them.
         UnknownNameError: There is no such side.
     """
     if side not in SIDES:
         raise UnknownNameError("side", side, SIDES)
     walk = unrolled(gait)
-    strikes = [e.time for e in walk.events if e.side == side and e.kind == "heel_strike"]
+    spans = strides(walk, side)
     if gait.periodic:  # as many cycles as it has strikes, each followed around the end
-        strikes = strikes[: sum(t < gait.duration * (1 - 1e-9) for t in strikes) + 1]
-    if len(strikes) < 2:
-        raise GaitError(
-            f"no gait cycles found: {len(strikes)} heel strikes of the {side} foot; 2 make a cycle"
-        )
-    strides = np.diff(strikes)
-    kept = strides <= LONGEST * np.median(strides)
-    pairs = [pair for pair, keep in zip(pairwise(strikes), kept, strict=True) if keep]
-    q = [curves.resampled(walk.time, walk.q, np.linspace(a, b, points), periodic=False) for a, b in pairs]
-    skipped = tuple(t for t, keep in zip(strikes, kept, strict=False) if not keep)
-    start = np.array([a for a, _ in pairs])
-    return Cycles(side, read_only(np.array(q)), read_only(start), read_only(strides[kept]), skipped)
+        spans = tuple(span for span in spans if span.start < gait.duration * (1 - 1e-9))
+    kept = [span for span in spans if not span.why]
+    if not kept:
+        raise GaitError(f"no gait cycles found: {_why_none(walk, spans, side)}")
+    q = [
+        curves.resampled(walk.time, walk.q, np.linspace(span.start, span.end, points), periodic=False)
+        for span in kept
+    ]
+    start, duration = (np.array([getattr(span, name) for span in kept]) for name in ("start", "duration"))
+    skipped = tuple(span for span in spans if span.why)
+    return Cycles(side, read_only(np.array(q)), read_only(start), read_only(duration), skipped)
 
 
-def unrolled(gait: Gait) -> Gait:
-    """A periodic gait as a recording of a cycle and a bit: every heel strike is followed by another one."""
-    if not gait.periodic:
-        return gait
-    twice = gait.repeated(3)
-    T = gait.duration
-    keep = twice.time <= 2 * T
-    base = None if twice.base is None else twice.base[keep]
-    end = float(twice.time[keep][-1])
-    events = tuple(event for event in twice.events if event.time <= end)
-    return Gait(twice.time[keep], twice.q[keep], base=base, events=events, source=gait.source)
+def _why_none(walk: Gait, spans: tuple[Stride, ...], side: str) -> str:
+    """What speaks against every stride."""
+    if spans:
+        return spans[0].why
+    count = sum(event.side == side and event.kind == "heel_strike" for event in walk.events)
+    return f"{count} heel strike{'s' * (count != 1)} of the {side} foot; 2 make a cycle"

@@ -24,6 +24,9 @@ PROMINENT = 0.3
 AT_THE_BORDER = 0.05
 """Where the recording begins or ends, less is enough on that side: the rest of the swing is not there."""
 
+WINDOW = 3.0
+"""The usual excursion is looked for in spans of this length [s]: a stride of a slow walk and more."""
+
 TOGETHER = 0.5
 """Correlation of the two feet's curves above which they jump or are the same foot; walking has about -0.9."""
 
@@ -58,6 +61,28 @@ def zeni(
         GaitError: No gait cycles: standing, a foot without both kinds of event, events of a foot that do not
             take turns, feet that do not take turns; or unusable arrays.
     """
+    heels = frozen(heel_forward, "heel_forward")
+    events = candidates(time, heels, toe_forward, periodic=periodic, smallest_excursion=smallest_excursion)
+    left, right = (heels - heels.mean(axis=0)).T
+    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
+        raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
+    check_turns(events, periodic)
+    return tuple(events)
+
+
+def candidates(
+    time: ArrayLike,
+    heel_forward: ArrayLike,
+    toe_forward: ArrayLike,
+    *,
+    periodic: bool = False,
+    smallest_excursion: float = SMALLEST_EXCURSION,
+) -> list[Event]:
+    """Where each foot turns, sorted by time, whether or not it is a walk; arguments as in `zeni`.
+
+    Raises:
+        GaitError: A foot hardly moves, or unusable arrays.
+    """
     t = frozen(time, "time")
     check_time(t, periodic)
     curves = {
@@ -70,25 +95,20 @@ def zeni(
             raise GaitError(f"{kind}: expected finite positions ({len(t)}, 2) [m], left and right")
         for side, y in zip(SIDES, curve.T, strict=True):
             events += [Event(x, kind, side, SOURCE) for x in _turns(t, y, side, periodic, smallest_excursion)]
-    left, right = (curves["heel_strike"] - curves["heel_strike"].mean(axis=0)).T
-    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
-        raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
-    events.sort(key=lambda event: event.time)
-    _check_walk(events, periodic)
-    return tuple(events)
+    return sorted(events, key=lambda event: event.time)
 
 
 def _turns(time: Array, y: Array, side: str, periodic: bool, smallest: float) -> list[float]:
     """Times of the prominent maxima of y."""
-    low, high = np.percentile(y, [5, 95])  # a single bad sample must not set the scale
-    if high - low < smallest:
+    excursion = _excursion(time, y, smallest)
+    if excursion < smallest:
         raise GaitError(
-            f"no gait cycles found: the {side} foot moves {high - low:.3f} m to and fro, "
+            f"no gait cycles found: the {side} foot moves {excursion:.3f} m to and fro, "
             f"less than {smallest:g} m"
         )
-    height = PROMINENT * (high - low)
+    height = PROMINENT * excursion
     if not periodic:
-        peaks = _prominent(y, height, AT_THE_BORDER * (high - low))
+        peaks = _prominent(y, height, AT_THE_BORDER * excursion)
         return [_vertex(time, y, i) for i in peaks]
     n, start = len(y), int(y.argmin())
     step = time[-1] / (n - 1)
@@ -97,6 +117,15 @@ def _turns(time: Array, y: Array, side: str, periodic: bool, smallest: float) ->
     around = np.concatenate([cycle[-1:], cycle, cycle[:1]])
     grid = step * np.arange(-1, n + 1)
     return [(_vertex(grid, around, i + 1) + start * step) % (n * step) for i in peaks]
+
+
+def _excursion(time: Array, y: Array, smallest: float) -> float:
+    """How far the foot usually moves to and fro [m], where it moves: before and after it may stand."""
+    length = int(np.searchsorted(time, time[0] + WINDOW))
+    starts = range(0, max(len(y) - length, 0) + 1, max(length // 4, 1))
+    spans = np.array([np.ptp(np.percentile(y[i : i + length], [5, 95])) for i in starts])  # no single sample
+    walks = spans[spans >= smallest]
+    return float(np.median(walks) if len(walks) else spans.max())
 
 
 def _prominent(y: Array, height: float, border: float) -> list[int]:
@@ -136,8 +165,12 @@ def _vertex(time: Array, y: Array, i: int) -> float:
     return float(time[i] + np.clip((before - left / bend) / 2, before / 2, after / 2))
 
 
-def _check_walk(events: list[Event], periodic: bool) -> None:
-    """Both feet strike and leave in turns, and so do left and right."""
+def check_turns(events: list[Event], periodic: bool = False) -> None:
+    """Both feet strike and leave in turns, and so do left and right.
+
+    Raises:
+        GaitError: They do not.
+    """
     for side in SIDES:
         mine = [event for event in events if event.side == side]
         if len({event.kind for event in mine}) < 2:

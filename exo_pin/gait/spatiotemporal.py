@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -13,6 +13,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.checks import check_time, frozen
 from exo_pin.gait.event import Event
+from exo_pin.gait.strides import Stride
 
 Array = NDArray[np.float64]
 
@@ -21,6 +22,12 @@ FLAT = (0.2, 0.5)
 
 STILL = 0.05
 """A ground that seems to move slower than this [m/s] stands still."""
+
+ROUNDING = 1e-9
+"""Of times, as a part of the walk's duration."""
+
+Measure = tuple[str, ArrayLike]
+"""Unit and the single values."""
 
 
 class Number(NamedTuple):
@@ -39,48 +46,34 @@ class Number(NamedTuple):
     unit: str
 
 
-class Range(NamedTuple):
-    """What is usual.
-
-    Attributes:
-        low: Lower end.
-        high: Upper end.
-        unit: Its unit.
-    """
-
-    low: float
-    high: float
-    unit: str
-
-
-NORMAL_SOURCE = "healthy adults at free speed, customary clinical ranges (speed to width: 18 to 29 years)"
-NORMAL: Mapping[str, Range] = {
-    "speed": Range(1.20, 1.65, "m/s"),
-    "cadence": Range(99.0, 113.0, "steps/min"),
-    "stride_length": Range(1.35, 1.66, "m"),
-    "step_width": Range(0.08, 0.135, "m"),
-    "stance": Range(58.0, 64.0, "%"),
-    "double_support": Range(16.0, 26.0, "%"),
-}
-"""Ranges to compare an adult with; children walk with shorter and quicker steps."""
-
-
-def spatiotemporal(time: ArrayLike, heels: ArrayLike, events: Iterable[Event]) -> dict[str, Number]:
+def spatiotemporal(
+    time: ArrayLike,
+    heels: ArrayLike,
+    events: Iterable[Event],
+    *,
+    pelvis: ArrayLike | None = None,
+    spans: Sequence[Stride] | None = None,
+    until: float = float("inf"),
+) -> dict[str, Number]:
     """Numbers of a walk from where the heels are and when they touch; over ground or on a treadmill.
 
-    Lengths are measured over the ground: where the resting foot moves evenly (a treadmill, or a walk on the
-    spot), that motion is the ground's and is taken off. Step length and width are along and across the
-    direction of the walk, from the other foot's last heel strike to this one's.
+    Lengths are measured over the ground: where the resting feet move faster than the pelvis gets along (a
+    treadmill, or a walk on the spot), their motion is the ground's and is taken off. Step length and width
+    are along and across the stride that the step belongs to, so a gentle curve does not matter.
 
     Args:
-        time: `(n,)` [s].
+        time: `(n,)` times of the samples [s].
         heels: `(n, 2, 2)` or `(n, 2, 3)` left and right heel in the world, z up [m].
         events: Heel strikes and toe-offs.
+        pelvis: `(n, 2)` where the pelvis is, if it moves in the world [m].
+        spans: The strides to count (`exo_pin.gait.strides`); default: all between two strikes of a foot.
+        until: What begins later is not counted: the end of the first round of a walk that repeats [s].
 
     Returns:
         `cadence`, `speed`, `stride_time`, `stride_length`, `step_width`, `double_support`, and by side, as
         `left_stance`: `step_length`, `step_time`, `stance`, `swing`; `step_length_symmetry` and the like are
-        2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal sides. What cannot be told is left out.
+        2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal sides, of the means, with the standard
+        deviation of the single cycles' index. What cannot be told is left out.
 
     Raises:
         GaitError: No foot with two heel strikes, or unusable arrays.
@@ -90,22 +83,24 @@ def spatiotemporal(time: ArrayLike, heels: ArrayLike, events: Iterable[Event]) -
     if p.ndim != 3 or p.shape[:2] != (len(t), 2) or p.shape[2] not in (2, 3):
         raise GaitError(f"heels have shape {p.shape}, expected ({len(t)}, 2, 3)")
     walk = _Walk(t, p[:, :, :2], sorted(events, key=lambda event: event.time))
-    strides = [(side, a, b) for side in SIDES for a, b in pairwise(walk.times("heel_strike", side))]
-    if not strides:
+    if spans is None:
+        spans = [Stride(side, *ab) for side in SIDES for ab in pairwise(walk.times("heel_strike", side))]
+    if not spans:
         raise GaitError("no gait cycles found: no foot strikes the ground twice")
-    ground = walk.ground()
-    path = np.array([walk.at(side, b) - walk.at(side, a) - ground * (b - a) for side, a, b in strides])
-    length, duration = np.linalg.norm(path, axis=1), np.array([b - a for _, a, b in strides])
-    total = path.sum(axis=0)
-    forward = total / max(float(np.linalg.norm(total)), 1e-9)
-    out = {
-        "cadence": _number(120 / duration, "steps/min"),
-        "speed": _number(length / duration, "m/s"),
-        "stride_time": _number(duration, "s"),
-        "stride_length": _number(length, "m"),
+    counted = [span for span in spans if span.start < until * (1 - ROUNDING)]
+    ground = _ground(walk, None if pelvis is None else frozen(pelvis, "pelvis"))
+    length = np.array([np.linalg.norm(_path(walk, span, ground)) for span in counted])
+    duration = np.array([span.duration for span in counted])
+    measures = {
+        "cadence": ("steps/min", 120 / duration),
+        "speed": ("m/s", length / duration),
+        "stride_time": ("s", duration),
+        "stride_length": ("m", length),
+        **_steps(walk, spans, ground, until),
+        **_phases(walk, counted),
     }
-    out |= _steps(walk, ground, forward) | _phases(walk, strides)
-    return out | _symmetry(out)
+    out = {name: _number(values, unit) for name, (unit, values) in measures.items()}
+    return out | _symmetry({name: np.asarray(values) for name, (_, values) in measures.items()})
 
 
 class _Walk(NamedTuple):
@@ -122,48 +117,67 @@ class _Walk(NamedTuple):
         path = self.heels[:, SIDES.index(side)]
         return np.array([np.interp(t, self.time, path[:, k]) for k in range(2)])
 
-    def ground(self) -> Array:
-        """Velocity `(2,)` of the ground [m/s]: of the feet while they rest, 0 where that is slow."""
-        rest = []
-        for side in SIDES:
-            for strike, off in _spans(self, "heel_strike", "toe_off", side):
-                a, b = (strike + part * (off - strike) for part in FLAT)
-                rest.append((self.at(side, b) - self.at(side, a)) / (b - a))
-        velocity = np.median(rest, axis=0) if rest else np.zeros(2)
-        return velocity if np.linalg.norm(velocity) > STILL else np.zeros(2)
+
+def _path(walk: _Walk, span: Stride, ground: Array) -> Array:
+    """From a foot's strike to its next one over the ground, `(2,)` [m]."""
+    return walk.at(span.side, span.end) - walk.at(span.side, span.start) - ground * span.duration
 
 
-def _spans(walk: _Walk, first: str, second: str, side: str) -> list[tuple[float, float]]:
-    """From each first kind of event to the foot's next event, where that is of the second kind."""
+def _ground(walk: _Walk, pelvis: Array | None) -> Array:
+    """Velocity `(2,)` of the ground [m/s]: the resting feet's, 0 where it is slow or the person gets along.
+
+    The sides have the same weight, or one foot's drift would turn the walk's direction.
+    """
+    resting = []
+    for side in SIDES:
+        spans = list(_spans(walk, side))
+        moves = [(walk.at(side, b) - walk.at(side, a)) / (b - a) for a, b in spans]
+        resting += [np.median(moves, axis=0)] if moves else []
+    velocity = np.mean(resting, axis=0) if resting else np.zeros(2)
+    along = np.zeros(2)
+    if pelvis is not None:
+        along = (pelvis[-1] - pelvis[0]) / (walk.time[-1] - walk.time[0])
+    slower = np.linalg.norm(velocity) < max(STILL, float(np.linalg.norm(along)))
+    return np.zeros(2) if slower else velocity
+
+
+def _spans(walk: _Walk, side: str) -> Iterator[tuple[float, float]]:
+    """The parts of each stance in which the foot rests flat."""
     mine = [event for event in walk.events if event.side == side]
-    return [(a.time, b.time) for a, b in pairwise(mine) if (a.kind, b.kind) == (first, second)]
+    for strike, off in pairwise(mine):
+        if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
+            a, b = (strike.time + part * (off.time - strike.time) for part in FLAT)
+            yield a, b
 
 
-def _steps(walk: _Walk, ground: Array, forward: Array) -> dict[str, Number]:
+def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) -> dict[str, Measure]:
     """Lengths, times and widths from one foot's strike to the other's."""
     strikes = [event for event in walk.events if event.kind == "heel_strike"]
     lengths: dict[str, list[float]] = {side: [] for side in SIDES}
     times: dict[str, list[float]] = {side: [] for side in SIDES}
     widths = []
     for a, b in pairwise(strikes):
-        if a.side == b.side:
+        around = [s for s in spans if s.start <= a.time and b.time <= s.end and s.side in (a.side, b.side)]
+        if a.side == b.side or not around or a.time > until * (1 - ROUNDING):
             continue
+        course = sum((_path(walk, span, ground) for span in around), np.zeros(2))
+        forward = course / max(float(np.linalg.norm(course)), 1e-9)
         step = walk.at(b.side, b.time) - walk.at(a.side, a.time) - ground * (b.time - a.time)
         lengths[b.side].append(float(step @ forward))
         times[b.side].append(b.time - a.time)
         widths.append(abs(float(step[1] * forward[0] - step[0] * forward[1])))
-    out = {"step_width": _number(widths, "m")} if widths else {}
+    out: dict[str, Measure] = {"step_width": ("m", widths)} if widths else {}
     for side in SIDES:
         if lengths[side]:
-            out[f"{side}_step_length"] = _number(lengths[side], "m")
-            out[f"{side}_step_time"] = _number(times[side], "s")
+            out[f"{side}_step_length"] = ("m", lengths[side])
+            out[f"{side}_step_time"] = ("s", times[side])
     return out
 
 
-def _phases(walk: _Walk, strides: Sequence[tuple[str, float, float]]) -> dict[str, Number]:
+def _phases(walk: _Walk, spans: Sequence[Stride]) -> dict[str, Measure]:
     """Stance, swing and double support in per cent of the stride."""
     shares: dict[str, list[float]] = {}
-    for side, a, b in strides:
+    for side, a, b, _ in spans:
         offs = [t for t in walk.times("toe_off", side) if a < t < b]
         if len(offs) != 1:
             continue
@@ -176,16 +190,20 @@ def _phases(walk: _Walk, strides: Sequence[tuple[str, float, float]]) -> dict[st
         if len(ends) == len(starts) == 1:
             both = (ends[0] - a) + (offs[0] - starts[0])
             shares.setdefault("double_support", []).append(100 * both / (b - a))
-    return {name: _number(values, "%") for name, values in shares.items()}
+    return {name: ("%", values) for name, values in shares.items()}
 
 
-def _symmetry(numbers: Mapping[str, Number]) -> dict[str, Number]:
+def _symmetry(values: Mapping[str, Array]) -> dict[str, Number]:
+    """How much the sides differ; the spread is that of the index from cycle to cycle, signs kept."""
     out = {}
     for name in ("step_length", "step_time", "stance"):
-        left, right = (numbers.get(f"{side}_{name}") for side in SIDES)
-        if left and right and left.mean + right.mean > 0:
-            index = 200 * abs(left.mean - right.mean) / (left.mean + right.mean)
-            out[f"{name}_symmetry"] = Number(index, float("nan"), 1, "%")
+        left, right = (values.get(f"{side}_{name}") for side in SIDES)
+        if left is None or right is None or not left.mean() + right.mean() > 0:
+            continue
+        n = min(len(left), len(right))
+        index = 200 * abs(left.mean() - right.mean()) / (left.mean() + right.mean())
+        each = _number(200 * (left[:n] - right[:n]) / (left[:n] + right[:n]), "%")
+        out[f"{name}_symmetry"] = Number(float(index), each.sd, n, "%")
     return out
 
 
@@ -193,14 +211,3 @@ def _number(values: ArrayLike, unit: str) -> Number:
     x = np.asarray(values, dtype=float)
     sd = float(x.std(ddof=1)) if len(x) > 1 else float("nan")
     return Number(float(x.mean()), sd, len(x), unit)
-
-
-def against_normal(numbers: Mapping[str, Number]) -> dict[str, str]:
-    """Each number that has a usual range: `within`, `below` or `above` it; the side is left aside."""
-    verdicts = {}
-    for name, number in numbers.items():
-        usual = NORMAL.get(name.removeprefix("left_").removeprefix("right_"))
-        if usual is not None:
-            below, above = number.mean < usual.low, number.mean > usual.high
-            verdicts[name] = "below" if below else "above" if above else "within"
-    return verdicts

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.anatomy import CORNERS, FEET
-from exo_pin.gait import Event, Gait
-from exo_pin.gait.events import zeni
+from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.errors import GaitError
+from exo_pin.gait import Event, Gait, bouts
+from exo_pin.gait.strides import strides, unrolled
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
@@ -17,6 +19,10 @@ Array = npt.NDArray[np.float64]
 
 TOUCH = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
+
+
+LEVEL = 1e-9
+"""A heading shorter than this has no direction: the pelvis lies on its face or back."""
 
 
 class Contacts(NamedTuple):
@@ -65,15 +71,30 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008).
 
     Heel and ball of the foot are followed forward of the pelvis, along its own horizontal heading: that
-    serves on the treadmill and over ground, whatever the direction of the walk.
+    serves on the treadmill and over ground, whatever the direction of the walk. Parts that are no walk give
+    no events; see `exo_pin.gait.bouts.walking`. Without the pelvis's motion a foot's height is told by how
+    far its leg is drawn up.
 
     Raises:
-        GaitError: There are no gait cycles in the motion.
+        GaitError: There are no gait cycles in the motion; the message says what speaks against them.
     """
     base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
-    heading = T[:, 0, :2, 0] / np.linalg.norm(T[:, 0, :2, 0], axis=1, keepdims=True)
-    relative = T[:, 1:, :2, 3] - T[:, :1, :2, 3]
-    forward = np.einsum("nck,nk->nc", relative, heading).reshape(-1, len(FEET), 2, 2)  # foot, part, edge
-    heel, ball = forward.mean(axis=3).transpose(2, 0, 1)
-    return zeni(gait.time, heel, ball, periodic=gait.periodic)
+    heading = T[:, 0, :2, 0] / np.maximum(np.linalg.norm(T[:, 0, :2, 0], axis=1, keepdims=True), LEVEL)
+    soles = T[:, 1:, :3, 3].reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball of each foot
+    if (
+        gait.base is None
+    ):  # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
+        along = soles - T[:, None, None, 0, :3, 3]
+        soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
+    feet = bouts.Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
+    found = bouts.walking(feet, periodic=gait.periodic)
+    _check_strides(dataclasses.replace(gait, events=found))
+    return found
+
+
+def _check_strides(gait: Gait) -> None:
+    """Raises `GaitError` if none of the strides of a walk counts as one."""
+    spans = [span for side in SIDES for span in strides(unrolled(gait), side)]
+    if spans and all(span.why for span in spans):
+        raise GaitError(f"no gait cycles found: {spans[0].why}")

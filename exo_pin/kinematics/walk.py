@@ -12,9 +12,9 @@ from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.formats import Plate
 from exo_pin.gait import Event, Gait, plates
-from exo_pin.gait.cycles import unrolled
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
+from exo_pin.gait.strides import strides, unrolled
 from exo_pin.kinematics.contact import events
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
@@ -33,14 +33,26 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
 
     Events are the gait's own, or those of its kinematics. Lengths are those of this robot's legs.
 
+    Pauses, turns and other spans that are no strides (`exo_pin.gait.strides`) are left out.
+
     Raises:
         GaitError: There are no gait cycles.
     """
     if not gait.events:
         gait = dataclasses.replace(gait, events=events(robot, gait))
     walk = unrolled(gait)
-    heels = _soles(robot, walk)[:, :, 0]
-    return numbers_of(walk.time, heels, walk.events)
+    spans = [span for side in SIDES for span in strides(walk, side)]
+    counted = [span for span in spans if not span.why]
+    if spans and not counted:
+        raise GaitError(f"no gait cycles found: {spans[0].why}")
+    return numbers_of(
+        walk.time,
+        _soles(robot, walk)[:, :, 0],
+        walk.events,
+        pelvis=None if walk.base is None else walk.base[:, :2, 3],
+        spans=counted,
+        until=gait.duration if gait.periodic else float("inf"),
+    )
 
 
 def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Event, ...]:

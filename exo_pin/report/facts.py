@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from exo_pin import __version__
 from exo_pin.anatomy.body import Leg
 from exo_pin.errors import DescriptionError, GaitError
-from exo_pin.gait import NORMAL, Gait, against_normal
-from exo_pin.gait.spatiotemporal import NORMAL_SOURCE
+from exo_pin.gait import Gait, against_normal, normal
+from exo_pin.gait.norms import CITATIONS
 from exo_pin.kinematics import spatiotemporal
 from exo_pin.report import panels
 from exo_pin.report.blocks import Block, Figure, Section, Table, Words
@@ -88,23 +88,27 @@ def contact(gait: Gait) -> Section:
 
 
 def numbers(robot: Robot, gait: Gait) -> Section:
-    """Cadence, speed, lengths, phases, against the usual ranges of adults."""
+    """Cadence, speed, lengths, phases, against published ranges."""
     title = "Spatiotemporal numbers"
     try:
         found = spatiotemporal(robot, gait)
     except GaitError as error:
         return Section(title, (Words(f"None: {error}."),))
-    verdicts = against_normal(found)
+    legs = robot.body.leg_length if robot.body else math.nan  # unknown legs have no usual ranges
+    verdicts, ranges = against_normal(found, leg_length=legs), normal(found, leg_length=legs)
     rows = []
     for name, number in found.items():
-        usual = NORMAL.get(name.removeprefix("left_").removeprefix("right_"))
-        span = "-" if usual is None else f"{usual.low:g} .. {usual.high:g}"
+        usual = ranges.get(name)
+        span = "-" if usual is None else f"{usual.low:.3g} .. {usual.high:.3g} ({usual.source})"
         sd = "-" if math.isnan(number.sd) else f"{number.sd:.3f}"
         shown = f"{number.mean:.3f}" if number.unit in ("m", "s", "m/s") else f"{number.mean:.1f}"
         row = [name.replace("_", " "), shown, sd, str(number.n), number.unit, span, verdicts.get(name, "-")]
         rows.append(row)
     columns = ("number", "mean", "sd", "n", "unit", "usual", "this walk")
-    note = f"Usual: {NORMAL_SOURCE}. Lengths are those of this body's legs."
+    cited = "; ".join(
+        f"{key}: {CITATIONS[key]}" for key in sorted({usual.source for usual in ranges.values()})
+    )
+    note = f"Lengths are those of this body's legs. Usual ranges: {cited}."
     return Section(title, (Table(columns, rows), Words(note, "note")))
 
 
