@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from exo_pin.cli import options, show
 from exo_pin.files import write_text
@@ -15,17 +15,26 @@ if TYPE_CHECKING:
 _EXAMPLES = """examples:
   exo-pin retarget --robot talos -o joints.csv
   exo-pin retarget walk.mot --robot icub --json
+  exo-pin retarget --robot my_robot.urdf     any URDF with two legs
+  exo-pin retarget --robot my_robot.toml     a record of it: feet, front, limits (docs/robots.md)
+  exo-pin replay --robot talos               watch it walk
 
-robots: talos, romeo, icub, g1 (example-robot-data). Foot by foot: the feet's paths, scaled to the robot's
-legs, through inverse kinematics within its limits; the file holds these angles. exit code 1: a foot was
-missed by more than 0.01 mm or 1e-5 rad"""
+robots: {}. Foot by foot: the feet's paths, scaled to the robot's legs, through inverse kinematics within its
+limits; the file holds these angles ("used"; "use" is how far from mid-range to a limit: 100 % is on it).
+Joint by joint ("copied"): the walk's own angles, hips and ankles through their rotation; "outside" counts the
+samples in which a limit forbids them.
+exit code 1: a foot was missed by more than 0.01 mm or 1e-5 rad (legs of fewer than six joints: 0.01 mm)"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    parser.epilog = _EXAMPLES
+    from exo_pin.retarget.targets import TARGETS
+
+    parser.epilog = _EXAMPLES.format(", ".join(TARGETS))
     options.add_gait(parser)
-    parser.add_argument("--robot", default="talos", metavar="NAME", help="which robot (default: talos)")
+    parser.add_argument(
+        "--robot", default="talos", metavar="ROBOT", help="name, .urdf or .toml file (default: talos)"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("-o", "--output", metavar="FILE", help="joint angles as CSV: time_s, <joint>_deg ...")
     options.add_body(parser)
@@ -48,28 +57,41 @@ def run(args: argparse.Namespace) -> int:
 
 def _print(result: Retargeted, name: str) -> None:
     facts = result.facts()
-    position, rotation = facts["position_error_mm"], facts["rotation_error_deg"]
+    feet, joints = facts["foot_by_foot"], facts["joint_by_joint"]
     rows = [
         ["legs, times the body's", f"{result.scale[0]:.3f}, {result.scale[1]:.3f}"],
+        ["joints per leg, hip's order", f"{facts['joints_per_leg']}, {facts['hip_order']}"],
         ["samples", str(facts["samples"])],
         ["samples with a foot missed", str(facts["samples_missed"])],
-        ["ankle's distance, rms and max", f"{position['rms']:.3f}, {position['max']:.3f} mm"],
-        ["foot's angle, rms and max", f"{rotation['rms']:.4f}, {rotation['max']:.4f} deg"],
+        ["ankle's distance, rms and max", _pair(feet, "position_error_mm", "mm")],
+        ["foot's angle, rms and max", _pair(feet, "rotation_error_deg", "deg")],
+        ["joint by joint: ankle's distance", _pair(joints, "position_error_mm", "mm")],
+        ["joint by joint: foot's angle", _pair(joints, "rotation_error_deg", "deg")],
     ]
-    show.table(f"{name} on {result.target.name}", ["foot by foot", ""], rows)
-    lines = [
-        [joint, f"{show.fixed(x['min_deg'])} .. {show.fixed(x['max_deg'])}", str(x["samples_outside"] or "-")]
-        for joint, x in facts["joint_by_joint"].items()
-    ]
-    show.table("Joint by joint", ["joint", "asked deg", "samples outside its limits"], lines)
+    show.table(f"{name} on {result.target.title or result.target.name}", ["foot by foot", ""], rows)
+    head = ["joint", "limits deg", "used deg", "use", "copied deg", "outside"]
+    show.table("Joints", head, [_line(joint, use) for joint, use in facts["joints"].items()])
     if result.target.remarks:
         print(result.target.remarks)
+
+
+def _pair(residuals: dict[str, float], name: str, unit: str) -> str:
+    return f"{residuals[f'{name}_rms']:.3f}, {residuals[f'{name}_max']:.3f} {unit}"
+
+
+def _line(joint: str, use: dict[str, Any]) -> list[str]:
+    ranges = [
+        f"{show.fixed(low)} .. {show.fixed(high)}"
+        for low, high in (use["limits_deg"], use["used_deg"], use["asked_deg"])
+    ]
+    share = f"{100 * use['limit_use']:.0f} %"
+    return [joint, ranges[0], ranges[1], share, ranges[2], str(use["samples_outside"] or "-")]
 
 
 def _csv(result: Retargeted) -> str:
     from numpy import column_stack, degrees
 
-    columns = [result.robot.column(joint) for joint in result.legs]
-    head = ",".join(["time_s", *(f"{joint}_deg" for joint in result.legs)])
+    columns = [result.robot.column(joint) for joint in result.joints]
+    head = ",".join(["time_s", *(f"{joint}_deg" for joint in result.joints)])
     rows = column_stack([result.time, degrees(result.q[:, columns])])
     return "\n".join([head, *(",".join(f"{x:.9g}" for x in row) for row in rows)]) + "\n"

@@ -1,6 +1,18 @@
-"""A walk on other robots: humanoids whose legs have the exoskeleton's six joints."""
+"""A walk on other robots: humanoids, or any URDF with two legs."""
 
-from exo_pin.retarget.targets import TARGETS, Target, find, load
-from exo_pin.retarget.transfer import Retargeted, retarget
+from exo_pin.retarget.machine import Machine, find, load, ready
+from exo_pin.retarget.result import Retargeted
+from exo_pin.retarget.targets import TARGETS, Target
+from exo_pin.retarget.transfer import joint_by_joint, retarget
 
-__all__ = ["TARGETS", "Retargeted", "Target", "find", "load", "retarget"]
+__all__ = [
+    "TARGETS",
+    "Machine",
+    "Retargeted",
+    "Target",
+    "find",
+    "joint_by_joint",
+    "load",
+    "ready",
+    "retarget",
+]

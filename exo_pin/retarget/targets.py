@@ -1,114 +1,121 @@
-"""Robots to retarget to: one record each, their URDFs from example-robot-data."""
+"""Robots to retarget to: one record each; their URDFs come from example-robot-data, or are the user's own."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, distribution
+from dataclasses import dataclass, field
+from math import radians
 from pathlib import Path
 from types import MappingProxyType
 
-from exo_pin.errors import DescriptionError, UnknownNameError
-from exo_pin.robot import Robot, load_urdf
+Pair = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A humanoid.
+    """A robot with two legs. What is left out is found from the robot's structure.
 
     Attributes:
         name: What `retarget(..., robot=...)` calls it.
-        file: End of the URDF's path in example-robot-data.
-        left: Joints of the left leg from the hip outwards: three of the hip, knee, two of the ankle.
-        right: The same of the right leg.
-        feet: Links of the left and right foot; at zero they stand level.
-        hip_order: Order of the hip joints, `"clinical"` or `"yaw_roll_pitch"`.
-        backward: Whether the robot's base has x to the back.
+        file: End of the URDF's path in example-robot-data, or the path of a URDF of one's own.
+        feet: Links of the left and right foot; empty: the ends of the two legs that reach down.
+        forward: Where the root link's front is, along its own axes: `"x"`, `"-x"`, `"y"` ...; empty: it
+            follows from which leg is called left.
+        up: Where its top is; empty: away from the feet.
+        stand: Joint angles [rad] at which the robot stands on straight legs with level feet; zero for others.
+        limits: Joint limits [rad] to be used instead of the file's.
+        title: For people.
         remarks: What to know.
     """
 
     name: str
-    file: str
-    left: tuple[str, ...]
-    right: tuple[str, ...]
-    feet: tuple[str, str]
-    hip_order: str
-    backward: bool = False
+    file: str | Path
+    feet: tuple[str, ...] = ()
+    forward: str = ""
+    up: str = ""
+    stand: Mapping[str, float] = field(default_factory=dict)
+    limits: Mapping[str, Pair] = field(default_factory=dict)
+    title: str = ""
     remarks: str = ""
 
 
-def _named(pattern: str, *parts: str) -> tuple[str, ...]:
-    return tuple(pattern.format(part) for part in parts)
+def _both(limits: Mapping[str, Pair], mirrored: Mapping[str, Pair]) -> Mapping[str, Pair]:
+    """Limits [deg] of a leg, by the end of the joint's name, for `LLEG_` and `RLEG_` [rad]."""
+    found = {}
+    for name, (low, high) in {**limits, **mirrored}.items():
+        found[f"LLEG_{name}"] = (radians(low), radians(high))
+        low, high = (-high, -low) if name in mirrored else (low, high)
+        found[f"RLEG_{name}"] = (radians(low), radians(high))
+    return MappingProxyType(found)
 
-
-_PARTS = ("HipYaw", "HipRoll", "HipPitch", "KneePitch", "AnklePitch", "AnkleRoll")
-_SNAKE = ("hip_pitch", "hip_roll", "hip_yaw", "knee", "ankle_pitch", "ankle_roll")
 
 TALOS = Target(
-    name="talos",
-    file="talos_data/robots/talos_reduced.urdf",
-    left=_named("leg_left_{}_joint", *"123456"),
-    right=_named("leg_right_{}_joint", *"123456"),
+    "talos",
+    "talos_data/robots/talos_reduced.urdf",
     feet=("leg_left_6_link", "leg_right_6_link"),
-    hip_order="yaw_roll_pitch",
+    title="TALOS (PAL Robotics)",
 )
 ROMEO = Target(
-    name="romeo",
-    file="romeo_description/urdf/romeo_small.urdf",
-    left=_named("L{}", *_PARTS),
-    right=_named("R{}", *_PARTS),
+    "romeo",
+    "romeo_description/urdf/romeo_small.urdf",
     feet=("l_ankle", "r_ankle"),
-    hip_order="yaw_roll_pitch",
+    title="Romeo (Aldebaran)",
 )
 ICUB = Target(
-    name="icub",
-    file="icub_description/robots/icub_reduced.urdf",
-    left=_named("l_{}", *_SNAKE),
-    right=_named("r_{}", *_SNAKE),
+    "icub",
+    "icub_description/robots/icub_reduced.urdf",
     feet=("l_ankle_2", "r_ankle_2"),
-    hip_order="clinical",
-    backward=True,
+    forward="-x",
+    title="iCub (IIT)",
 )
 G1 = Target(
-    name="g1",
-    file="g1_description/urdf/g1_29dof_rev_1_0.urdf",
-    left=_named("left_{}_joint", *_SNAKE),
-    right=_named("right_{}_joint", *_SNAKE),
+    "g1",
+    "g1_description/urdf/g1_29dof_rev_1_0.urdf",
     feet=("left_ankle_roll_link", "right_ankle_roll_link"),
-    hip_order="clinical",
-    remarks="The hip axes are inclined and do not meet: joint by joint is only near.",
+    title="G1 (Unitree)",
+    remarks="The hip's roll and yaw axes are inclined by 10 degrees and its three axes do not meet: the "
+    "paths are scaled to what the legs reach in every direction.",
+)
+SIMPLE_HUMANOID = Target(
+    "simple_humanoid",
+    "simple_humanoid_description/urdf/simple_humanoid.urdf",
+    limits=_both(
+        {"HIP_P": (-120.0, 40.1), "KNEE": (0.0, 150.0), "ANKLE_P": (-72.8, 39.0)},
+        {"HIP_Y": (-20.0, 90.0), "HIP_R": (-30.0, 30.0), "ANKLE_R": (-30.0, 30.0)},
+    ),
+    title="simple humanoid (Gepetto team)",
+    remarks="The file's leg limits have slipped from joint to joint (the left knee has -120 .. 40 degrees, "
+    "both ankles 0 .. 150). Used instead: the file's own pairs of numbers at the joints where they fit and "
+    "where TALOS has them, and +-30 degrees for hip and ankle roll. The file has no "
+    "visuals: capsules are drawn.",
+)
+HUMAN = Target(
+    "human",
+    "human_description/robots/human.urdf",
+    feet=("left_foot", "right_foot"),
+    up="y",
+    title="human_description (Gepetto team)",
+    remarks="A person with ISB joints; its root link has y up.",
+)
+BOLT = Target(
+    "bolt",
+    "bolt_description/robots/bolt.urdf",
+    feet=("FL_FOOT", "FR_FOOT"),
+    title="Bolt (Open Dynamic Robot Initiative)",
+    remarks="Three joints per leg and point feet: the feet's places are met, their attitude is not; without "
+    "hip rotation and ankles, these are dropped.",
 )
 
-TARGETS: Mapping[str, Target] = MappingProxyType({t.name: t for t in (TALOS, ROMEO, ICUB, G1)})
+TARGETS: Mapping[str, Target] = MappingProxyType(
+    {t.name: t for t in (TALOS, ROMEO, ICUB, G1, SIMPLE_HUMANOID, HUMAN, BOLT)}
+)
 """Every target by name."""
 
-
-def find(target: str | Target) -> Target:
-    """The target of that name; a record is handed back.
-
-    Raises:
-        UnknownNameError: There is none.
-    """
-    if isinstance(target, Target):
-        return target
-    if target not in TARGETS:
-        raise UnknownNameError("robot to retarget to", target, TARGETS)
-    return TARGETS[target]
-
-
-def load(target: str | Target) -> Robot:
-    """The target's robot, its base held.
-
-    Raises:
-        UnknownNameError: The target is unknown.
-        DescriptionError: example-robot-data does not have it.
-    """
-    found = find(target)
-    try:
-        files = distribution("example-robot-data").files or []
-    except PackageNotFoundError:
-        raise DescriptionError(f"{found.name} comes with example-robot-data; install it") from None
-    for file in files:
-        if str(file).endswith(f"/{found.file}"):
-            return load_urdf(Path(str(file.locate())))
-    raise DescriptionError(f"example-robot-data has no {found.file}")
+UNFIT: Mapping[str, str] = MappingProxyType(
+    {
+        "cassie": "example-robot-data has Cassie as SDF alone, its legs as closed loops with springs (rods "
+        "from the hip to the tarsus); a URDF cannot hold loops, and cut open the legs would not be Cassie's. "
+        "An open-chain URDF of it can be given as a file",
+    }
+)
+"""Robots that one might look for, and why they are not among `TARGETS`."""

@@ -1,167 +1,166 @@
 """Retargeting: foot by foot through inverse kinematics, and joint by joint through the hips' rotation.
 
 The feet's paths are seen from the pelvis and scaled, hip to ankle, by the ratio of the legs' reaches; the
-feet keep their attitude. Joint by joint copies the angles, the hip's three through its rotation into the
-robot's own order of axes.
+feet keep their attitude. Joint by joint copies the angles: the hip's three, and the ankle's two, through
+their rotation onto the robot's own axes, whatever their order.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
-from exo_pin.anatomy.hip import reorder
-from exo_pin.dh.leg import chain
-from exo_pin.dh.recursion import tree
-from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
-from exo_pin.ik.leg import Leg, leg
 from exo_pin.kinematics import poses
-from exo_pin.retarget.targets import Target, find, load
-from exo_pin.robot import Robot, load_robot
+from exo_pin.retarget.axes import turns
+from exo_pin.retarget.legs import RobotLeg
+from exo_pin.retarget.machine import Machine, load, ready
+from exo_pin.retarget.result import Retargeted
+from exo_pin.retarget.targets import Target
+from exo_pin.robot import Robot, load_robot, load_urdf
 
 Array = npt.NDArray[np.float64]
 
-SETTINGS = ik.Auto(tolerance=1e-6)
-"""A micrometre and a microradian are enough for a robot's joints."""
+WHOLE = 6
+"""So many joints put a foot anywhere in any attitude; fewer put it there and turn it as they can."""
+
+SETTINGS = ik.Auto(tolerance=1e-6, dls=ik.Dls(restarts=0))
+"""A micrometre and a microradian are enough for a robot's joints; the copied angles are a good start."""
+
+NEAREST = ik.Dls(tolerance=1e-9, restarts=0, warm_start=False)
+"""For legs that cannot reach the attitude: each sample descends once from the copied angles."""
+
+SHRINKING = (1.0, 0.99, 0.98, 0.97, 0.96, 0.95)
+"""Paths are made smaller by up to a twentieth where hips whose axes do not meet cannot reach them."""
+
+LIGHT = 1e-3
+"""Weight of the attitude against the place, where not both can be had."""
+
+ARM = 0.1
+"""The attitude is held by points so far from the ankle [m]."""
 
 
-@dataclass(frozen=True, eq=False)
-class Retargeted:
-    """A walk on another robot, its base held where the pelvis is.
-
-    Attributes:
-        target: The robot's record.
-        robot: The robot.
-        time: Times (n,) [s].
-        q: Joint values (n, nq), foot by foot, within the robot's limits [rad].
-        scale: Robot's leg over the body's, left and right.
-        position_error: Distance of the ankles from the scaled paths (n, 2) [m].
-        rotation_error: Angle of the feet from the walk's (n, 2) [rad].
-        copied: Joint values (n, nq), joint by joint, not cut to the limits [rad].
-    """
-
-    target: Target
-    robot: Robot
-    time: Array
-    q: Array
-    scale: tuple[float, float]
-    position_error: Array
-    rotation_error: Array
-    copied: Array
-
-    @property
-    def legs(self) -> tuple[str, ...]:
-        """The joints of both legs."""
-        return (*self.target.left, *self.target.right)
-
-    def limit_use(self) -> dict[str, tuple[float, float, int]]:
-        """By leg joint: smallest and largest value asked joint by joint [rad], samples outside the limits."""
-        use = {}
-        for name in self.legs:
-            j, k = self.robot.column(name), self.robot.joints.index(name)
-            asked = self.copied[:, j]
-            outside = (asked < self.robot.lower[k] - 1e-9) | (asked > self.robot.upper[k] + 1e-9)
-            use[name] = (float(asked.min()), float(asked.max()), int(outside.sum()))
-        return use
-
-    def facts(self) -> dict[str, Any]:
-        """Plain values for JSON."""
-        missed = (self.position_error > 1e-5) | (self.rotation_error > 1e-5)
-        return {
-            "robot": self.target.name,
-            "samples": len(self.time),
-            "scale": list(self.scale),
-            "position_error_mm": {
-                "rms": 1e3 * float(np.sqrt(np.mean(self.position_error**2))),
-                "max": 1e3 * float(self.position_error.max()),
-            },
-            "rotation_error_deg": {
-                "rms": float(np.degrees(np.sqrt(np.mean(self.rotation_error**2)))),
-                "max": float(np.degrees(self.rotation_error.max())),
-            },
-            "samples_missed": int(missed.any(axis=1).sum()),
-            "joint_by_joint": {
-                name: {"min_deg": float(np.degrees(a)), "max_deg": float(np.degrees(b)), "samples_outside": n}
-                for name, (a, b, n) in self.limit_use().items()
-            },
-            "remarks": self.target.remarks,
-        }
-
-
-def retarget(gait: Gait, robot: str | Target = "talos", body: Body | None = None) -> Retargeted:
+def retarget(
+    gait: Gait, robot: str | Path | Target | Robot = "talos", body: Body | None = None
+) -> Retargeted:
     """Bring a walk to another robot.
 
     Args:
         gait: The walk.
-        robot: One of `TARGETS` by name, or a record.
+        robot: One of `TARGETS` by name, the path of a URDF or of a TOML record, a record, or a robot from
+            `load_urdf`.
         body: Whose walk it is; `Body.from_stature()` if left out.
 
     Raises:
         UnknownNameError: The robot is unknown.
-        DescriptionError: Its URDF is missing, or a leg is not a chain of six joints.
+        DescriptionError: Its URDF is missing or no robot with two legs.
+        FormatError: Its record is not accepted.
     """
-    target = find(robot)
-    machine, walker = load(target), load_robot(body)
-    legs = [_leg(machine, foot) for foot in target.feet]
-    turn = np.diag([-1.0, -1.0, 1.0]) if target.backward else np.eye(3)
-    q = walker.from_gait(gait)
-    names = [f"{side}_{link}" for side in SIDES for link in ("thigh", "sole_plate")]
-    T = poses(walker, q, names, base=np.eye(4))  # hip centre and ankle, seen from the pelvis
-    scale, goals = [], {}
-    for k, (side, own) in enumerate(zip(SIDES, legs, strict=True)):
-        hip, foot = T[:, 2 * k], T[:, 2 * k + 1]
-        sizes = walker.body.leg(side) if walker.body is not None else None
-        assert sizes is not None  # load_robot made it
-        scale.append(own.reach / (sizes.thigh + sizes.shank))
-        goals[target.feet[k]] = _goal(own, turn, scale[k] * (foot - hip)[:, :3, 3], foot[:, :3, :3])
-    copied = _copied(gait, target, machine, turn, legs)
-    start = np.clip(copied, machine.lower, machine.upper)
-    track = ik.track(machine, goals, start, settings=SETTINGS)
+    machine = _machine(robot)
+    walker = load_robot(body)
+    T = _limbs(gait, walker)
+    copied = _copied(gait, machine, T[..., :3, :3])
+    assert walker.body is not None  # load_robot made it
+    own = [walker.body.leg(side) for side in SIDES]
+    ratios = [leg.reach / (size.thigh + size.shank) for leg, size in zip(machine.legs, own, strict=True)]
+    best: Retargeted | None = None
+    for share in SHRINKING:
+        tried = _solved(gait, walker, machine, T, (share * ratios[0], share * ratios[1]), copied)
+        if best is None or tried.missed.sum() < best.missed.sum():
+            best = tried
+        if not best.missed.any():
+            break
+    assert best is not None  # there is a first share
+    return best
+
+
+def joint_by_joint(gait: Gait, machine: Machine, body: Body | None = None) -> Array:
+    """The walk's own angles on a robot's joints (n, nq), hips and ankles through their rotation [rad]."""
+    return _copied(gait, machine, _limbs(gait, load_robot(body))[..., :3, :3])
+
+
+def _machine(robot: str | Path | Target | Robot) -> Machine:
+    if not isinstance(robot, Robot):
+        return load(robot)
+    if robot.base != "fixed" or (robot.placement != np.eye(4)).any():
+        robot = load_urdf(robot.urdf, path=robot.path)  # its root at the origin
+    return ready(Target(robot.name, ""), robot)
+
+
+def _limbs(gait: Gait, walker: Robot) -> Array:
+    """Poses (n, 2, 3, 4, 4) of thigh, shank and foot of both legs, seen from the pelvis."""
+    names = [f"{side}_{link}" for side in SIDES for link in ("thigh", "shank", "sole_plate")]
+    T = poses(walker, walker.from_gait(gait), names, base=np.eye(4))
+    return T.reshape(len(gait), 2, 3, 4, 4)
+
+
+def _solved(
+    gait: Gait, walker: Robot, machine: Machine, T: Array, scale: tuple[float, float], copied: Array
+) -> Retargeted:
+    """Foot by foot, the paths from hip to ankle scaled."""
+    ankles = np.stack(
+        [
+            leg.hip + s * (T[:, k, 2] - T[:, k, 0])[:, :3, 3]
+            for k, (leg, s) in enumerate(zip(machine.legs, scale, strict=True))
+        ],
+        axis=1,
+    )
+    R = T[:, :, 2, :3, :3]
+    robot = machine.robot
+    start = np.array(copied)
+    low = robot.nq - len(robot.joints)
+    start[:, low:] = np.clip(start[:, low:], robot.lower, robot.upper)
+    goals = {leg.foot: _goal(machine, leg, ankles[:, k], R[:, k]) for k, leg in enumerate(machine.legs)}
+    whole = all(len(leg.joints) == WHOLE for leg in machine.legs)
+    q = ik.track(robot, goals, start, settings=SETTINGS if whole else NEAREST).q
     return Retargeted(
-        target=target,
-        robot=machine,
-        time=gait.time,
-        q=track.q,
-        scale=(scale[0], scale[1]),
-        position_error=track.position_error,
-        rotation_error=track.rotation_error,
+        machine=machine,
+        gait=gait,
+        q=q,
         copied=copied,
+        base=_base(gait, walker, machine, scale),
+        scale=scale,
+        ankles=ankles,
+        attitudes=R,
     )
 
 
-def _leg(machine: Robot, foot: str) -> Leg:
-    own = leg(machine, foot)
-    if own is None:
-        raise DescriptionError(f"{foot} of {machine.name} does not hang on a chain of six revolute joints")
-    return own
-
-
-def _goal(own: Leg, turn: Array, ankle: Array, R: Array) -> Array:
-    """Poses of the robot's foot link: the ankle at the hip plus the scaled path, the foot's own attitude."""
+def _goal(machine: Machine, leg: RobotLeg, ankle: Array, R: Array) -> ik.Points | Array:
+    """Poses of the foot's link; for legs of fewer joints its ankle, and lightly points around it."""
+    turn = machine.turn
     T = np.tile(np.eye(4), (len(R), 1, 1))
-    T[:, :3, :3] = turn @ R @ turn.T @ own.tip[:3, :3]
-    T[:, :3, 3] = own.hip + ankle @ turn.T - np.einsum("nij,j->ni", T[:, :3, :3], own.ankle_in_frame)
-    return T
+    T[:, :3, :3] = turn @ R @ leg.T[:3, :3]
+    T[:, :3, 3] = ankle @ turn.T - np.einsum("nij,j->ni", T[:, :3, :3], leg.ankle_in_foot)
+    if len(leg.joints) == WHOLE:
+        return T
+    local = leg.ankle_in_foot + np.vstack([np.zeros(3), ARM * np.eye(3)])
+    points = local @ np.swapaxes(T[:, :3, :3], -1, -2) + T[:, None, :3, 3]
+    return ik.Points(local, points, (1.0, LIGHT, LIGHT, LIGHT))
 
 
-def _copied(gait: Gait, target: Target, machine: Robot, turn: Array, legs: list[Leg]) -> Array:
-    """The gait's angles on the robot's joints, with the sign that each axis asks for."""
-    q = np.tile(machine.neutral, (len(gait), 1))
-    axes = {link.name: link.axis for link in tree(Body.from_stature())}
-    for k, (side, own) in enumerate(zip(SIDES, legs, strict=True)):
-        first = 6 * k
-        angles = np.array(gait.q[:, first : first + 6])
-        angles[:, :3] = reorder(angles[:, :3], side, source="clinical", target=target.hip_order)
-        named = dict(zip(JOINTS[first : first + 6], angles.T, strict=True))
-        for movement, joint, axis in zip(
-            chain(target.hip_order), (target.left, target.right)[k], own.axes, strict=True
-        ):
-            name = f"{side}_{movement}"
-            q[:, machine.column(joint)] = np.sign(axes[name] @ turn.T @ axis) * named[name]
+def _copied(gait: Gait, machine: Machine, R: Array) -> Array:
+    """The gait's angles on the robot's joints: R (n, 2, 3, 3, 3) are thigh, shank and foot."""
+    q = np.tile(machine.stand, (len(gait), 1))
+    for k, (side, leg) in enumerate(zip(SIDES, machine.legs, strict=True)):
+        thigh, shank, foot = (R[:, k, j] for j in range(3))
+        knee = leg.knee
+        bent = gait.q[:, JOINTS.index(f"{side}_knee_flexion")] * np.sign(leg.axes[knee, 1])
+        parts = [turns(leg.axes[:knee], thigh), bent[:, None]]
+        if knee + 1 < len(leg.joints):
+            parts.append(turns(leg.axes[knee + 1 :], np.swapaxes(shank, -1, -2) @ foot))
+        q[:, [machine.robot.column(joint) for joint in leg.joints]] += np.concatenate(parts, axis=1)
     return q
+
+
+def _base(gait: Gait, walker: Robot, machine: Machine, scale: tuple[float, float]) -> Array:
+    """T_world_root (n, 4, 4): the middle of the hips goes the pelvis's way, scaled, and turns as it."""
+    pelvis = np.tile(walker.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
+    T = np.array(pelvis, dtype=float)
+    T[:, :3, :3] = pelvis[:, :3, :3] @ machine.turn.T
+    hips = machine.turn @ (machine.legs[0].hip + machine.legs[1].hip) / 2
+    T[:, :3, 3] = np.mean(scale) * pelvis[:, :3, 3] - T[:, :3, :3] @ hips
+    return T

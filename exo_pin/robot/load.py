@@ -56,6 +56,7 @@ def load_urdf(
     base: str = "fixed",
     placement: npt.ArrayLike | None = None,
     hip_order: str = "clinical",
+    path: str | Path | None = None,
 ) -> Robot:
     """A robot from any URDF.
 
@@ -64,6 +65,7 @@ def load_urdf(
         base: `"fixed"` or `"floating"`.
         placement: Pose of the root link in the world (4, 4); the identity if left out.
         hip_order: Order of its hip joints, should it have the joints of `JOINTS`.
+        path: Where a text comes from: the viewer looks for its meshes there.
 
     Raises:
         DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts.
@@ -71,6 +73,8 @@ def load_urdf(
     if base not in ("fixed", "floating"):
         raise UnknownNameError("base", base, ("fixed", "floating"))
     text = _text(source)
+    if path is None and text is not source:
+        path = source
     try:
         root = (pin.JointModelFreeFlyer(),) if base == "floating" else ()
         model = pin.buildModelFromXML(text, *root)
@@ -95,6 +99,7 @@ def load_urdf(
         placement=_frozen(stand),
         base=base,
         hip_order=hip_order,
+        path=None if path is None else Path(path).absolute(),
     )
 
 

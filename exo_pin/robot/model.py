@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -44,6 +45,7 @@ class Robot:
         body: The body it was made for; None for a URDF from elsewhere.
         hip_order: Order of the hip joints from the pelvis outwards.
         device: The device it was made from; None for a URDF from elsewhere.
+        path: The file that the URDF was read from, where its meshes are looked for; None for a text.
     """
 
     model: Any
@@ -58,6 +60,7 @@ class Robot:
     body: Body | None = None
     hip_order: str = "clinical"
     device: Device | None = None
+    path: Path | None = None
 
     @property
     def name(self) -> str:

@@ -1,0 +1,159 @@
+"""A robot's legs read from its model: which joint makes which of a person's movements, hip, ankle, reach."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin.errors import DescriptionError
+from exo_pin.ik.leg import nearest_point
+from exo_pin.kinematics import poses
+from exo_pin.retarget.axes import about
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+HIP = ("hip_adduction", "hip_flexion", "hip_rotation")
+"""Movement of a hip joint by the coordinate that its axis is nearest to."""
+
+ANKLE = ("ankle_inversion", "ankle_dorsiflexion", "")
+"""The same behind the knee; no ankle turns about the vertical."""
+
+PITCH = 1
+"""The coordinate that flexes: y, to the left."""
+
+_KNEE_STEPS = 721  # a quarter of a degree over 180: the reach is found within 3e-6 of itself
+
+
+@dataclass(frozen=True, eq=False)
+class RobotLeg:
+    """A leg in the walker's axes (x forward, y left, z up), the robot's root at the origin, as it stands.
+
+    Attributes:
+        side: `"left"` or `"right"`.
+        foot: Name of the foot's link.
+        joints: From the hip outwards.
+        movements: What each joint does of a person's leg, e.g. `"knee_flexion"`.
+        axes: Directions of the joints (k, 3).
+        points: A point on each axis (k, 3) [m].
+        limits: Lower and upper limits (k, 2) [rad], from the standing pose.
+        T: Pose of the foot's link (4, 4).
+    """
+
+    side: str
+    foot: str
+    joints: tuple[str, ...]
+    movements: tuple[str, ...]
+    axes: Array
+    points: Array
+    limits: Array
+    T: Array
+
+    @property
+    def knee(self) -> int:
+        """Place of the knee in `joints`."""
+        return self.movements.index("knee_flexion")
+
+    @property
+    def hip_order(self) -> str:
+        """The hip's axes from the pelvis outwards, in words."""
+        words = {"hip_flexion": "pitch", "hip_adduction": "roll", "hip_rotation": "yaw"}
+        return "-".join(words[movement] for movement in self.movements[: self.knee])
+
+    @cached_property
+    def hip(self) -> Array:
+        """The point nearest to the hip's axes (3,), as far to the side as the ankle stands [m]."""
+        hip = nearest_point(self.points[: self.knee], self.axes[: self.knee])
+        hip[PITCH] = self.ankle[PITCH]
+        return hip
+
+    @cached_property
+    def ankle(self) -> Array:
+        """The point nearest to the ankle's axes (3,), or the foot's origin where there are none [m]."""
+        behind = slice(self.knee + 1, None)
+        if not len(self.points[behind]):
+            return np.array(self.T[:3, 3])
+        return nearest_point(self.points[behind], self.axes[behind])
+
+    @cached_property
+    def ankle_in_foot(self) -> Array:
+        """The ankle as the foot's link sees it (3,) [m]."""
+        return np.asarray(self.T[:3, :3].T @ (self.ankle - self.T[:3, 3]))
+
+    @cached_property
+    def reach(self) -> float:
+        """Largest distance from hip to ankle within the knee's limits [m]."""
+        knee = self.points[self.knee]
+        lower, upper = self.limits[self.knee].clip(-np.pi, np.pi)
+        angles = np.linspace(float(lower), float(upper), _KNEE_STEPS)
+        ankles = knee + about(self.axes[self.knee], angles) @ (self.ankle - knee)
+        return float(np.linalg.norm(ankles - self.hip, axis=1).max())
+
+
+def robot_leg(
+    robot: Robot, side: str, foot: str, joints: tuple[str, ...], stand: Array, turn: Array
+) -> RobotLeg:
+    """Read a leg.
+
+    Args:
+        robot: The robot, its root at the origin.
+        side: `"left"` or `"right"`.
+        foot: The foot's link.
+        joints: The leg's joints from the hip outwards.
+        stand: Configuration (nq,) at which the robot stands.
+        turn: Rotation (3, 3) from the walker's axes to the root link's.
+
+    Raises:
+        DescriptionError: A joint slides, or the joints are no leg: no hip flexion and knee, or two joints for
+            one movement.
+    """
+    model, data = robot.model, robot.model.createData()
+    slopes = pin.computeJointJacobians(model, data, stand)
+    ids = [model.getJointId(name) for name in joints]
+    axes = np.array([slopes[3:, model.idx_vs[j]] for j in ids])
+    if (np.linalg.norm(axes, axis=1) < 0.5).any():
+        raise DescriptionError(f"the leg of {foot} has a sliding joint; joints that turn are accepted")
+    columns = [robot.column(name) for name in joints]
+    rows = [robot.joints.index(name) for name in joints]
+    T = poses(robot, stand, [foot])[0]
+    return RobotLeg(
+        side=side,
+        foot=foot,
+        joints=joints,
+        movements=movements(axes @ turn, joints),
+        axes=axes @ turn,
+        points=np.array([data.oMi[j].translation for j in ids]) @ turn,
+        limits=np.stack([robot.lower[rows], robot.upper[rows]], axis=1) - stand[columns, None],
+        T=np.block([[turn.T @ T[:3, :3], (turn.T @ T[:3, 3:])], [np.zeros((1, 3)), np.ones((1, 1))]]),
+    )
+
+
+def movements(axes: Array, joints: tuple[str, ...]) -> tuple[str, ...]:
+    """The movement of each joint of a leg from its axis (k, 3) in the walker's axes.
+
+    The joints that flex are hip, knee and ankle, in this order; what lies before the knee belongs to the hip,
+    what lies behind it to the ankle.
+
+    Raises:
+        DescriptionError: It is no leg.
+    """
+    main = np.argmax(np.abs(axes), axis=1)
+    flexing = np.flatnonzero(main == PITCH)
+    if len(flexing) < 2:
+        raise DescriptionError(
+            f"the joints {', '.join(joints)} have no hip flexion and knee about the lateral axis"
+        )
+    knee = int(flexing[1])
+    found = [HIP[k] for k in main[:knee]] + ["knee_flexion"] + [ANKLE[k] for k in main[knee + 1 :]]
+    for movement in found:
+        same = [joint for joint, other in zip(joints, found, strict=True) if other == movement]
+        if len(same) > 1 or not movement:
+            what = movement or "turning about the vertical behind the knee"
+            raise DescriptionError(
+                f"{' and '.join(same)} stand for {what}; a leg has one joint for each movement"
+            )
+    return tuple(found)
