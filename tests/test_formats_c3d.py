@@ -72,7 +72,7 @@ def damaged(path, tmp_path, change):
         (lambda d: d[:0], "not a C3D file"),
         (lambda d: b"\x00" * len(d), "not a C3D file"),
         (lambda d: d.__setitem__(0, 200), "outside the file"),
-        (lambda d: d.__setitem__(515, 85), "DEC numbers"),
+        (lambda d: d.__setitem__(515, 85), "0 Hz"),  # as DEC numbers these are others
         (lambda d: d.__setitem__(515, 7), "processor 7"),
         (lambda d: d.__setitem__(slice(2, 4), b"\xff\x7f"), "bytes, the file has|points in one place"),
         (lambda d: d.__setitem__(slice(20, 24), b"\0\0\0\0"), "0 Hz"),

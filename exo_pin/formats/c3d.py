@@ -6,6 +6,7 @@ import io
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_bytes
-from exo_pin.formats import c3dheader
+from exo_pin.formats import c3dheader, c3dintel, c3dnumbers
 from exo_pin.formats.markers import Markers, Plate, to_z_up, unique
 from exo_pin.formats.notes import Notes, to_gait
 from exo_pin.formats.presets import PRESETS
@@ -48,8 +49,9 @@ def read_markers(path: Path) -> Markers:
     Raises:
         FormatError: With file and reason; ezc3d runs in a process of its own, with limits.
     """
-    layout = c3dheader.check(path, read_bytes(path))
-    found = _child(path)
+    data = read_bytes(path)
+    layout = c3dheader.check(path, data)
+    found = _child(path) if layout.processor == c3dnumbers.INTEL else _turned(path, data, layout)
     points = np.moveaxis(found["points"], 0, -1)  # (k, n, 3)
     if points.shape != (layout.points, layout.frames, 3) or len(found["labels"]) < layout.points:
         raise FormatError(
@@ -151,10 +153,19 @@ def _longest(good: NDArray[np.bool_]) -> tuple[int, int]:
     return tuple(runs[np.diff(runs, axis=1)[:, 0].argmax()].tolist()) if len(runs) else (0, 0)
 
 
-def _child(path: Path) -> dict[str, NDArray[Any]]:
-    """What ezc3d reads."""
-    size = path.stat().st_size >> 20
-    words = [sys.executable, "-P", str(CHILD), str(path.resolve()), str(MEGABYTES + 32 * size), str(SECONDS)]
+def _turned(path: Path, data: bytes, layout: c3dheader.Layout) -> dict[str, NDArray[Any]]:
+    """What ezc3d reads of a file by a DEC or MIPS machine, after its numbers were turned into Intel's."""
+    with tempfile.TemporaryDirectory() as folder:
+        turned = Path(folder) / "intel.c3d"
+        turned.write_bytes(c3dintel.to_intel(path, data, layout))
+        return _child(path, turned)
+
+
+def _child(path: Path, file: Path | None = None) -> dict[str, NDArray[Any]]:
+    """What ezc3d reads of a file, by default of the one that messages name."""
+    file = file or path
+    size = file.stat().st_size >> 20
+    words = [sys.executable, "-P", str(CHILD), str(file.resolve()), str(MEGABYTES + 32 * size), str(SECONDS)]
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}  # its threads would reserve memory
     try:
         ended = subprocess.run(words, capture_output=True, timeout=2 * SECONDS, env=environment, check=False)

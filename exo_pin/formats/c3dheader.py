@@ -9,12 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.errors import FormatError
+from exo_pin.formats.c3dnumbers import PROCESSORS, floats, integers
 
 BLOCK = 512
 KEY = 0x50
-ENDIANS = {84: "<", 85: "<", 86: ">"}
-"""Processor of the numbers: Intel, DEC, MIPS."""
-
 MOST_PARAMETERS = 20_000
 
 
@@ -26,22 +24,42 @@ class Layout(NamedTuple):
         frames: Frames of the file.
         first: Number of the first frame, counted from 1.
         rate: Frames per second.
+        processor: Who wrote the numbers, one of `c3dnumbers.PROCESSORS`.
+        parameters: Where the section of parameters begins [byte].
+        begin: Where the frames begin [byte].
+        end: Where they end.
+        real: Whether they are 32-bit numbers (or 16-bit whole ones).
     """
 
     points: int
     frames: int
     first: int
     rate: float
+    processor: int
+    parameters: int
+    begin: int
+    end: int
+    real: bool
 
 
-class Parameter(NamedTuple):
-    """One parameter's place in the file."""
+class Record(NamedTuple):
+    """One parameter's, or group's, place in the file.
+
+    Attributes:
+        group: Number of its group.
+        name: In capitals.
+        kind: Bytes of a value: -1 for text, 1, 2 or 4 (real); 0 for a group.
+        size: Values.
+        at: Where they begin [byte].
+        next_at: Where the distance to the next record stands.
+    """
 
     group: int
     name: str
     kind: int
     size: int
     at: int
+    next_at: int
 
 
 def check(path: Path, data: bytes) -> Layout:
@@ -56,27 +74,25 @@ def check(path: Path, data: bytes) -> Layout:
     if not BLOCK <= start <= len(data) - BLOCK:
         raise FormatError(path, "the header points to parameters outside the file; cut short?")
     processor = data[start + 3]
-    if processor not in ENDIANS:
+    if processor not in PROCESSORS:
         raise FormatError(
             path, f"written by processor {processor}; expected 84 (Intel), 85 (DEC) or 86 (MIPS)"
         )
-    if processor == 85:
-        raise FormatError(path, "holds DEC numbers; save it again as an Intel C3D file")
-    end = ENDIANS[processor]
-    words = np.frombuffer(data, f"{end}u2", 10)
-    scale, rate = (float(np.frombuffer(data, f"{end}f4", 1, at)[0]) for at in (12, 20))
-    numbers = _numbers(path, data, start, int(words[8]), end)
+    words = integers(data[:20], processor)
+    scale, rate = (float(floats(data[at : at + 4], processor)[0]) for at in (12, 20))
     points, analog, first, last = (int(words[k]) for k in (1, 2, 3, 4))
-    frames = _frames(numbers, first, last)
     begin = (int(words[8]) - 1) * BLOCK
-    need = begin + frames * (4 * points + analog) * (4 if scale < 0 else 2)
-    if begin <= start or need > len(data):
-        raise FormatError(path, f"says it has {need} bytes, the file has {len(data)}; cut short?")
+    numbers = _numbers(path, data, start, begin, processor)
+    frames = _frames(numbers, first, last)
+    end = begin + frames * (4 * points + analog) * (4 if scale < 0 else 2)
+    if begin <= start or end > len(data):
+        raise FormatError(path, f"says it has {end} bytes, the file has {len(data)}; cut short?")
     if numbers.get("POINT:USED", points) != points:
         raise FormatError(path, f"says {points} points in one place and {numbers['POINT:USED']} in another")
     if not (np.isfinite(rate) and 0 < rate <= 1e5) or frames < 1:
         raise FormatError(path, f"has {frames} frames at {rate:g} Hz; expected a recording")
-    return Layout(points, frames, numbers.get("START", first), rate)
+    first = numbers.get("START", first)
+    return Layout(points, frames, first, rate, processor, start, begin, end, scale < 0)
 
 
 def _frames(numbers: dict[str, int], first: int, last: int) -> int:
@@ -86,17 +102,16 @@ def _frames(numbers: dict[str, int], first: int, last: int) -> int:
     return numbers.get("POINT:FRAMES", last - first + 1) if last == 0xFFFF else last - first + 1
 
 
-def _numbers(path: Path, data: bytes, start: int, data_start: int, end: str) -> dict[str, int]:
+def _numbers(path: Path, data: bytes, start: int, begin: int, processor: int) -> dict[str, int]:
     """The whole numbers that matter here, from `GROUP:NAME`."""
-    section = data[: min(len(data), max(start + data[start + 2] * BLOCK, (data_start - 1) * BLOCK))]
     groups: dict[int, str] = {}
     found: dict[tuple[int, str], list[int]] = {}
-    for entry in _parameters(path, section, start + 4, end):
-        if entry.kind == 0:
-            groups[entry.group] = entry.name
-        elif entry.kind == 2 and 1 <= entry.size <= 2:
-            values = np.frombuffer(section, f"{end}u2", entry.size, entry.at)
-            found[entry.group, entry.name] = [int(x) for x in values]
+    for record in _records(path, _section(data, start, begin), start + 4, processor):
+        if record.kind == 0:
+            groups[record.group] = record.name
+        elif record.kind == 2 and 1 <= record.size <= 2:
+            raw = data[record.at : record.at + 2 * record.size]
+            found[record.group, record.name] = integers(raw, processor).tolist()
     numbers = {f"{groups.get(g, '?')}:{name}": values for (g, name), values in found.items()}
     out = {key: values[0] for key, values in numbers.items() if key in ("POINT:USED", "POINT:FRAMES")}
     for key, name in (("START", "TRIAL:ACTUAL_START_FIELD"), ("END", "TRIAL:ACTUAL_END_FIELD")):
@@ -105,31 +120,43 @@ def _numbers(path: Path, data: bytes, start: int, data_start: int, end: str) -> 
     return out
 
 
-def _parameters(path: Path, section: bytes, at: int, end: str) -> Iterator[Parameter]:
+def records(path: Path, data: bytes, layout: Layout) -> Iterator[Record]:
+    """The groups and parameters of a file that was found sound."""
+    section = _section(data, layout.parameters, layout.begin)
+    return _records(path, section, layout.parameters + 4, layout.processor)
+
+
+def _section(data: bytes, start: int, begin: int) -> bytes:
+    """The file up to the end of its parameters."""
+    return data[: min(len(data), max(start + data[start + 2] * BLOCK, begin))]
+
+
+def _records(path: Path, section: bytes, at: int, processor: int) -> Iterator[Record]:
     """Groups (kind 0) and parameters, one after the other; every step stays inside the section."""
     for _ in range(MOST_PARAMETERS):
         if at + 2 > len(section):
             return
         length, group = (int(x) for x in np.frombuffer(section, "i1", 2, at))
         name_at, length = at + 2, abs(length)
-        offset_at = name_at + length
+        next_at = name_at + length
         if not length:
             return
-        if offset_at + 4 > len(section):
+        if next_at + 4 > len(section):
             raise FormatError(path, "a parameter's name leaves the file; damaged or cut short")
-        name = section[name_at:offset_at].decode("latin-1").upper()
-        step = int(np.frombuffer(section, f"{end}u2", 1, offset_at)[0])
+        name = section[name_at:next_at].decode("latin-1").upper()
         if group < 0:
-            yield Parameter(-group, name, 0, 0, offset_at)
+            yield Record(-group, name, 0, 0, next_at, next_at)
         else:
-            yield _parameter(path, section, group, name, offset_at + 2)
+            yield _parameter(path, section, group, name, next_at)
+        step = int(integers(section[next_at : next_at + 2], processor)[0])
         if not step:
             return
-        at = offset_at + step
+        at = next_at + step
     raise FormatError(path, f"more than {MOST_PARAMETERS} parameters; damaged?")
 
 
-def _parameter(path: Path, section: bytes, group: int, name: str, at: int) -> Parameter:
+def _parameter(path: Path, section: bytes, group: int, name: str, next_at: int) -> Record:
+    at = next_at + 2
     kind, dimensions = (int(x) for x in np.frombuffer(section, "i1", 2, at))
     sizes = list(section[at + 2 : at + 2 + max(dimensions, 0)])
     count = int(np.prod(sizes, dtype=object)) if sizes else 1
@@ -138,4 +165,4 @@ def _parameter(path: Path, section: bytes, group: int, name: str, at: int) -> Pa
         raise FormatError(path, f"parameter {name[:40]!r} is malformed; damaged?")
     if data_at + count * abs(kind) > len(section):
         raise FormatError(path, f"parameter {name[:40]!r} leaves the file; damaged or cut short")
-    return Parameter(group, name, kind, count, data_at)
+    return Record(group, name, kind, count, data_at, next_at)
