@@ -100,9 +100,8 @@ def run(args: argparse.Namespace) -> int:
     try:
         done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
     except KeyboardInterrupt:
-        print(
-            f"\nstopped; what is done is kept, and the same command goes on ({args.output})", file=sys.stderr
-        )
+        left = study.part(args.output)
+        print(f"stopped; what is done is in {left}, and the same command goes on", file=sys.stderr)
         return 130
     page = "" if args.no_page or not done.rows else _write_page(args, done)
     facts = _facts(args, done, len(cases), page, time.perf_counter() - start)

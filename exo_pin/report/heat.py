@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from exo_pin.report.blocks import Drawing
 Array = npt.NDArray[np.float64]
 
 _LETTER = 6.1  # mean width of a letter at 11 px
+_LONGEST = 44  # letters of a row's heading
 _ROW, _HEAD, _TOP = 24.0, 20.0, 30.0
 _HIGH, _LOW = np.array([205, 73, 40]), np.array([41, 117, 199])
 """Colours of the largest and, where values have a sign, of the smallest cell."""
@@ -40,7 +41,7 @@ def heat(
         digits: Decimals.
         top: Value of the darkest cell; the largest in the table if left out.
     """
-    left = 12 + _LETTER * max(map(len, rows))
+    left = _left(rows)
     wide = (width - left - 4) / len(columns)
     values = np.array(list(rows.values()), dtype=float)
     most = top or max(float(np.nanmax(np.abs(values), initial=0.0)), 1e-12)
@@ -48,7 +49,7 @@ def heat(
     high = _TOP + _HEAD * max(len(words) for words in map(_words, columns)) * 0.65 + 6
     for k, (row, numbers) in enumerate(rows.items()):
         y = high + _ROW * k
-        lines.append(svg.text(left - 8, y + 16, row, text_anchor="end"))
+        lines.append(svg.text(left - 8, y + 16, _short(row), text_anchor="end"))
         for j, value in enumerate(numbers):
             lines += _cell(left + wide * j, y, wide, float(value), most, digits)
     head = svg.text(2, 15, title, font_size=12.5, font_weight=600)
@@ -64,7 +65,7 @@ def strips(name: str, title: str, rows: Mapping[str, Sequence[float]], *, width:
         rows: Heading of a row -> its numbers.
         width: Of the picture [px].
     """
-    left, right = 12 + _LETTER * max(map(len, rows)), 14.0
+    left, right = _left(rows), 14.0
     low, high = extent([np.append(list(values), 0.0) for values in rows.values()], 1.0, pad=0.02)
     scale = (width - left - right) / (high - low)
     bottom = _TOP + _ROW * len(rows)
@@ -77,13 +78,22 @@ def strips(name: str, title: str, rows: Mapping[str, Sequence[float]], *, width:
         parts.append(svg.text(at, bottom + 14, words, text_anchor="middle", font_size=10, fill=svg.GREY))
     for k, (row, values) in enumerate(rows.items()):
         y = _TOP + _ROW * (k + 0.5)
-        parts.append(svg.text(left - 8, y + 4, row, text_anchor="end"))
+        parts.append(svg.text(left - 8, y + 4, _short(row), text_anchor="end"))
         for value in values:
             x = left + scale * (value - low)
             parts.append(svg.tag("circle", cx=x, cy=y, r=3.4, fill="#2975c7", fill_opacity=0.45))
         middle = left + scale * (float(np.median(list(values))) - low)
         parts.append(svg.line([[middle, y - 8], [middle, y + 8]], svg.INK, stroke_width=2))
     return Drawing(name, title, svg.drawing(width, bottom + 20, parts, title))
+
+
+def _left(rows: Iterable[str]) -> float:
+    """Room for the rows' headings [px]."""
+    return 12 + _LETTER * max(len(_short(row)) for row in rows)
+
+
+def _short(row: str) -> str:
+    return row if len(row) <= _LONGEST else f"… {row[2 - _LONGEST :]}"
 
 
 def _headings(columns: Sequence[str], left: float, wide: float) -> list[str]:

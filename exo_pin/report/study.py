@@ -78,7 +78,7 @@ def _by_stature(rows: Sequence[Row]) -> Section:
     for pelvis, mine in _pelvises(r for r in rows if r.gait == speed):
         x, series = _series(mine, lambda row: row.stature_m)
         title = f"Sole error, rms [mm]: {speed}, {_PELVIS[pelvis]}"
-        drawings.append(_chart(f"stature_{pelvis}", title, "stature [m]", x, series))
+        drawings.append(_chart(f"stature_{pelvis}", title, "stature [m]", x, series, rows))
     caption = (
         "Lines that lie on each other are drawn once, under all their names. Bodies of the same proportions "
         "under the same angles are similar figures, so the errors grow with the stature in proportion, as "
@@ -95,7 +95,7 @@ def _by_speed(rows: Sequence[Row]) -> Section:
         title = f"Sole error, rms [mm]: {stature:.2f} m, {_PELVIS[pelvis]}"
         if len(speeds) > 1:
             x, series = _series(mine, lambda row: 120 / row.duration_s)
-            charts.append(_chart(f"speed_{pelvis}", title, "cadence [steps/min]", x, series))
+            charts.append(_chart(f"speed_{pelvis}", title, "cadence [steps/min]", x, series, rows))
         cells = _cells(mine, speeds, "sole_rms_mm")
         tables.append(heat(f"speeds_{pelvis}", title, [s.replace("_", " ") for s in speeds], cells))
     blocks: list[Block] = [Figure(tuple(drawings), columns=2) for drawings in (charts, tables) if drawings]
@@ -106,7 +106,8 @@ def _by_phase(rows: Sequence[Row]) -> Section:
     stature, speed = _usual_stature(rows), _usual_speed(rows)
     drawings = []
     for pelvis, mine in _pelvises(r for r in rows if (r.stature_m, r.gait) == (stature, speed)):
-        cells = {row.device: _phases(row) for row in mine}
+        found = {row.device: _phases(row) for row in mine}
+        cells = {name: found[name] for name in _devices(mine)}
         title = f"Sole error, rms [mm]: {speed}, {stature:.2f} m, {_PELVIS[pelvis]}"
         drawings.append(heat(f"phases_{pelvis}", title, [p.replace("pre-", "pre- ") for p in PHASES], cells))
     caption = "Phases of the foot's own cycle (Perry 1992), told by its heel strike and toe-off."
@@ -187,8 +188,11 @@ def _conditions(rows: Sequence[Row]) -> Section:
     )
 
 
-def _chart(name: str, title: str, x_label: str, x: Array, series: dict[str, Array]) -> Drawing:
-    curves = palette.curves(x, series, palette.looks(series), same=_SAME)
+def _chart(
+    name: str, title: str, x_label: str, x: Array, series: dict[str, Array], rows: Sequence[Row]
+) -> Drawing:
+    looks = palette.looks(dict.fromkeys(row.device for row in rows))  # a device looks the same in all charts
+    curves = palette.curves(x, series, looks, same=_SAME)
     top = max(float(np.nanmax(values)) for values in series.values())
     chart = Chart(
         title=title, x_label=x_label, curves=curves, y_range=(0, 1.08 * max(top, 1.0)), width=520, height=270

@@ -7,7 +7,7 @@ from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.plan import STATURES, STEP, bodies, plan, recordings, statures
 from exo_pin.study.sheet import COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
-from exo_pin.study.work import Study, run
+from exo_pin.study.work import Study, part, run
 
 __all__ = [
     "COLUMNS",
@@ -19,6 +19,7 @@ __all__ = [
     "Study",
     "bodies",
     "load",
+    "part",
     "plan",
     "recordings",
     "run",

@@ -81,7 +81,7 @@ def run(
         if rows:
             sheet.save(rows, path)
         part(path).unlink(missing_ok=True)
-    return Study(rows, failures, len(rows) - kept, kept)
+    return Study(rows, dict(sorted(failures.items())), len(rows) - kept, kept)
 
 
 def part(path: str | Path) -> Path:
