@@ -1,14 +1,18 @@
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from exo_pin import viewer
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import UnknownNameError
-from exo_pin.gait import normative_gait
+from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.viewer import curves
+from exo_pin.viewer.cycles import cycles
 
 ORDER = 1e-12  # [rad] through a robot's own coordinates and back
 
@@ -74,3 +78,32 @@ def test_dashed_curves_keep_their_own_time(gait):
         assert np.array_equal(arrays[f"{tab.dashed}_time"], slow.time)
         assert len(arrays[tab.dashed]) == len(slow)
     assert [group.reference for group in curves.groups(tabs)] == [tab.dashed for tab in tabs]
+
+
+def test_phase_is_counted_in_the_cycles_of_the_foot_that_has_more(gait):
+    walk = gait.repeated(3)
+    events = [event for event in walk.events if event.time > 0.1]  # the first left heel strike is lost
+    recording = Gait(walk.time + 5.0, walk.q, events=[replace(e, time=e.time + 5.0) for e in events])
+    found = cycles(recording)
+    assert found.side == "right"
+    strikes = [e.time for e in events if (e.side, e.kind) == ("right", "heel_strike")]
+    assert found.spans == tuple((pytest.approx(a), pytest.approx(b)) for a, b in pairwise(strikes))
+
+
+def test_a_cycle_that_repeats_has_a_phase_at_every_moment(gait):
+    late = np.roll(gait.q, -30, axis=0)  # the left foot strikes at 70 % of the samples
+    events = [replace(e, time=(e.time - 0.3 * gait.duration) % gait.duration) for e in gait.events]
+    found = cycles(Gait(gait.time, late, events=events, periodic=True))
+    assert found.side == "left"
+    assert found.spans[0][0] <= 0
+    assert found.spans[-1][1] >= gait.duration
+    strike = 0.7 * gait.duration
+    assert found.spans == (
+        (pytest.approx(strike - gait.duration), pytest.approx(strike)),
+        (pytest.approx(strike), pytest.approx(strike + gait.duration)),
+    )
+    assert cycles(replace(gait, events=())).spans == ((0.0, gait.duration),)
+
+
+def test_a_recording_without_a_whole_cycle_has_no_phase(gait):
+    assert cycles(Gait(gait.time, gait.q, events=gait.events)).spans == ()

@@ -13,6 +13,7 @@ from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
 from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost
+from exo_pin.viewer.cycles import cycles
 from exo_pin.viewer.facts import Facts, Grip, Group, Marks, Scene
 from exo_pin.viewer.links import Linkage, linkage
 from exo_pin.viewer.motion import Motion, motion
@@ -82,6 +83,7 @@ def scene(
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
+        cycles=cycles(gait),
         stance=shown.stance,
         contact="contact (estimated)" if shown.estimated else "foot contact",
         reference="" if reference is None else reference_title,

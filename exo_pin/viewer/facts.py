@@ -41,6 +41,18 @@ class Chain:
 
 
 @dataclass(frozen=True)
+class Cycles:
+    """The gait cycles in which phase is counted: whose heel strikes cut them, from and to [s].
+
+    `side` is empty where no foot has a cycle, or a periodic walk has no heel strikes. The cycles of a
+    periodic walk reach over its ends.
+    """
+
+    side: str
+    spans: tuple[Interval, ...]
+
+
+@dataclass(frozen=True)
 class Series:
     """One curve of a plot: a side, its column, its limits in the array's own unit."""
 
@@ -131,6 +143,7 @@ class Facts:
         duration: Length of the walk [s].
         start: The gait's own time at the page's 0 [s].
         periodic: Whether the last frame leads back to the first.
+        cycles: The gait cycles, for the phase.
         stance: Side -> intervals on the ground.
         contact: How contact was found, for the legend.
         reference: What the dashed curves are, or empty.
@@ -153,6 +166,7 @@ class Facts:
     duration: float
     start: float
     periodic: bool
+    cycles: Cycles
     stance: Mapping[str, tuple[Interval, ...]]
     contact: str
     reference: str

@@ -25,6 +25,8 @@ SCRIPTS = (
     "stage.js",
     "marks.js",
     "scale.js",
+    "window.js",
+    "backdrop.js",
     "plot.js",
     "plots.js",
     "toggles.js",

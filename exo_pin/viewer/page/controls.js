@@ -51,6 +51,11 @@ class Controls {
       ArrowRight: () => player.step(event.shiftKey ? 10 : 1),
       Home: () => player.seek(0),
       End: () => player.seek(player.clock.duration),
+      PageUp: () => player.seek(player.motion.strike(player.clock.time, -1)),
+      PageDown: () => player.seek(player.motion.strike(player.clock.time, 1)),
+      "[": () => player.plots.zoom(1 / STEP),
+      "]": () => player.plots.zoom(STEP),
+      w: () => player.plots.toggleWhole(),
       l: () => player.setLoop(!player.clock.loop),
       "-": () => player.faster(-1),
       "+": () => player.faster(1),
@@ -74,18 +79,32 @@ class Controls {
     set("play", "aria-label", playing ? "Pause" : "Play");
     set("play", "aria-pressed", String(playing));
     set("loop", "aria-pressed", String(loop));
-    const share = duration > 0 ? time / duration : 0;
-    const percent = `${(share * 100).toFixed(1)} %`;
-    this.part("seek").value = String(share);
-    this.part("seek").style.setProperty("--share", String(share));
-    set("seek", "aria-valuetext", `${time.toFixed(2)} s, ${percent}`);
-    this.part("percent").textContent = percent;
-    this.part("seconds").textContent = `${time.toFixed(2)} / ${duration.toFixed(2)} s`;
+    this.part("seek").value = String(duration > 0 ? time / duration : 0);
+    this.part("seek").style.setProperty("--share", this.part("seek").value);
+    const { percent, cycle } = phaseWords(motion, time);
+    set("seek", "aria-valuetext", `${time.toFixed(2)} s, ${percent} ${cycle}`);
+    this.tell("percent", percent);
+    this.tell("cycle", cycle);
+    this.tell("seconds", `${time.toFixed(2)} / ${duration.toFixed(2)} s`);
     this.offer(speed);
     this.part("speed").value = String(speed);
     for (const button of this.part("cameras").children) {
       button.setAttribute("aria-pressed", String(button.dataset.camera === view));
     }
-    this.part("percent").title = motion.periodic ? "share of the gait cycle" : "share of the recording";
   }
+
+  tell(id, text) {
+    if (this.part(id).textContent !== text) this.part(id).textContent = text;
+  }
+}
+
+/** Where in the gait cycle: percent and which cycle, for people. */
+function phaseWords(motion, time) {
+  const { side, spans } = motion.cycles;
+  if (!spans.length) return { percent: "\u2013 %", cycle: "no whole cycle" };
+  const phase = motion.phase(time);
+  const foot = side ? `${side} ` : "";
+  if (!phase) return { percent: "\u2013 %", cycle: `outside the ${foot}cycles` };
+  const percent = `${(phase.share * 100).toFixed(1)} %`;
+  return { percent, cycle: motion.periodic ? `${foot}cycle` : `${foot}cycle ${phase.number} of ${phase.count}` };
 }

@@ -8,19 +8,16 @@ class Motion {
     this.duration = header.duration;
     this.periodic = header.periodic;
     this.stance = header.stance;
+    this.cycles = header.cycles; // {side, spans}
+    this.begins = header.cycles.spans.map(([from]) => from);
+    this.borders = [...new Set(header.cycles.spans.flat())]; // heel strikes [s]
   }
 
   /** Frame pair and fraction at time t: {i, j, a}. A periodic walk closes from its last frame to its first. */
   at(t) {
     const { time, count, periodic, duration } = this;
     if (count < 2) return { i: 0, j: 0, a: 0 };
-    let low = 0;
-    let high = count;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (time[middle] <= t) low = middle;
-      else high = middle;
-    }
+    const low = Math.max(before(time, t), 0);
     const last = low === count - 1;
     if (last && !periodic) return { i: low, j: low, a: 0 };
     const end = last ? duration : time[low + 1];
@@ -54,6 +51,28 @@ class Motion {
     const k = step < 0 && !onFrame ? i : i + step;
     if (this.periodic) return this.time[(k + this.count) % this.count];
     return this.time[Math.min(Math.max(k, 0), this.count - 1)];
+  }
+
+  /** The times of an array's rows: its own where it has some. */
+  timesOf(name) {
+    const own = this.arrays[`${name}_time`];
+    return own ? own.data : this.time;
+  }
+
+  /** Where in its gait cycle t lies: {share, number, count}; null outside of whole cycles. */
+  phase(t) {
+    const { spans } = this.cycles;
+    const k = before(this.begins, t + 1e-9);
+    if (k < 0 || t > spans[k][1]) return null;
+    const [from, to] = spans[k];
+    return { share: Math.max((t - from) / (to - from), 0), number: k + 1, count: spans.length };
+  }
+
+  /** The heel strike before or after t, or the walk's end. */
+  strike(t, step) {
+    const inside = this.borders.filter((time) => time >= 0 && time <= this.duration);
+    const next = step > 0 ? inside.find((time) => time > t + 1e-6) : inside.findLast((time) => time < t - 1e-6);
+    return next ?? (step > 0 ? this.duration : 0);
   }
 
   inStance(side, t) {

@@ -1,4 +1,7 @@
-/* Plots: the column of synchronised plots with tabs; click or drag in one seeks in all. */
+/* Plots: the column of synchronised plots with tabs; click or drag in one seeks in all. A long recording is
+   shown through a window that follows the cursor. */
+
+const STEP = 1.5; // by how much a key or a button widens or narrows the window
 
 class Plots {
   /** `other` is an element that takes the plots' place under a last tab, or null. */
@@ -8,13 +11,20 @@ class Plots {
     this.other = other;
     this.seek = seek;
     this.plots = [];
+    this.last = [0, { i: 0, j: 0, a: 0 }]; // time and place that are shown
+    this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(holder);
+    this.stretch = document.getElementById("stretch");
+    document.getElementById("narrower").onclick = () => this.zoom(1 / STEP);
+    document.getElementById("wider").onclick = () => this.zoom(STEP);
+    document.getElementById("whole").onclick = () => this.toggleWhole();
   }
 
   load(motion, groups) {
     this.motion = motion;
     this.groups = groups;
+    this.window = new TimeWindow(motion.duration, this.calm);
     const titles = [...groups.map((group) => group.title), ...(this.other ? ["Pose"] : [])];
     this.tabs.replaceChildren(...titles.map((title, k) => this.tab(title, k)));
     this.tabs.hidden = titles.length < 2;
@@ -35,30 +45,67 @@ class Plots {
     const group = this.groups[k];
     this.holder.hidden = !group;
     if (this.other) this.other.hidden = Boolean(group);
+    this.tellWindow();
     if (!group) return;
+    document.getElementById("dashed").hidden = !group.reference;
     this.holder.replaceChildren();
-    this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.holder));
+    this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.window, this.holder));
     for (const plot of this.plots) this.listen(plot);
     this.resize();
   }
 
   listen(plot) {
-    const go = (event) => this.seek(plot.x.at(event.clientX - plot.canvas.getBoundingClientRect().left));
+    const time = (event) => plot.x.at(event.clientX - plot.canvas.getBoundingClientRect().left);
+    const go = (event) => this.seek(time(event));
     plot.canvas.onpointerdown = (event) => {
       plot.canvas.setPointerCapture(event.pointerId);
       plot.canvas.onpointermove = go;
       go(event);
     };
     plot.canvas.onpointerup = plot.canvas.onpointercancel = () => (plot.canvas.onpointermove = null);
+    const wheel = (event) => {
+      if (!event.ctrlKey) return; // without it, and without two fingers, the wheel scrolls the page
+      event.preventDefault();
+      this.zoom(event.deltaY > 0 ? STEP : 1 / STEP, time(event));
+    };
+    plot.canvas.addEventListener("wheel", wheel, { passive: false });
+  }
+
+  /** Widens (above 1) or narrows the window about a time, the cursor's if none is given. */
+  zoom(factor, about = this.last[0]) {
+    this.window.zoom(factor, about);
+    this.moved();
+  }
+
+  toggleWhole() {
+    this.window.toggle(this.last[0]);
+    this.moved();
+  }
+
+  /** The window is another one: everything is painted again. */
+  moved() {
+    this.tellWindow();
+    for (const plot of this.plots) plot.paint();
+    this.draw(...this.last);
+  }
+
+  tellWindow() {
+    const { window: shown, motion } = this;
+    const useless = motion.periodic || (shown.whole && motion.duration <= AT_FIRST); // the keys work all the same
+    document.getElementById("window").hidden = useless || this.holder.hidden;
+    document.getElementById("whole").setAttribute("aria-pressed", String(shown.whole));
+    this.stretch.textContent = shown.whole ? "all" : `${plain(Number(shown.span.toPrecision(2)))} s`;
   }
 
   resize() {
     for (const plot of this.plots) plot.resize();
-    if (this.last) this.draw(...this.last);
+    this.draw(...this.last);
   }
 
   draw(t, at) {
     this.last = [t, at];
+    if (!this.window) return;
+    if (this.window.follow(t)) for (const plot of this.plots) plot.paint();
     for (const plot of this.plots) plot.draw(t, at);
   }
 }

@@ -13,6 +13,23 @@ function fixed(value, digits) {
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "\u2212");
 }
 
+/** A tick's number, without the dust of binary fractions. */
+function plain(value) {
+  return String(Number(value.toFixed(6))).replace("-", "\u2212");
+}
+
+/** Index of the last of rising times that is not after t; -1 if all are. */
+function before(times, t) {
+  let low = -1;
+  let high = times.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 /** Lowest and highest value of one column, widened a little and never flat. */
 function columnRange(arrays, column) {
   let low = Infinity;
