@@ -6,7 +6,6 @@ import dataclasses
 from collections import Counter
 from collections.abc import Callable
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,68 +14,12 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.events import SOURCE, TOGETHER, candidates, check_turns
+from exo_pin.gait.steps import Feet, Step, agreed, in_the_air, steps_of
 
 Array = NDArray[np.float64]
 
-APART = 0.15
-"""The other foot strikes at least this part of the stride after and before this one: limps reach 0.3."""
-
-REST = (0.2, 0.5)
-"""Part of the stance in which the whole foot rests on the ground."""
-
-AIRBORNE = (0.4, 0.03)
-"""A foot strikes the ground no higher than this part of its swing's height, and this [m], above its rest."""
-
-LIFTED = 0.01
-"""A foot may be as much higher in stance than in swing [m]: averaged walks drag their feet."""
-
-LEVEL = 0.05
-"""A resting foot goes up and down by less [m]; over a pelvis that is held still the ground does by 4 cm."""
-
-SHORTEST = 0.10
-"""A stride gets along by as much [m] over the ground, or it is stepping on the spot."""
-
-QUICKEST = 0.4
-"""Nobody walks quicker strides [s]: 300 steps/min."""
-
-EARLY = 0.1
-"""The other foot may leave the ground this part of the stride before this one strikes: the method errs."""
-
 NEAR = 1.5
-"""Events belong to a walk if they lie within this many strides of one of its strides."""
-
-
-class Feet(NamedTuple):
-    """Both feet, left and right, and the pelvis over the ground, z up.
-
-    Attributes:
-        time: `(n,)` [s].
-        heel: `(n, 2, 3)` [m]. Where nobody knows the pelvis's tilt, the height that a straighter leg leaves
-            below the pelvis serves as z: see `exo_pin.kinematics.events`.
-        toe: `(n, 2, 3)` balls of the feet, or toes [m].
-        pelvis: `(n, 2)` [m].
-        heading: `(n, 2)` unit vectors: where the pelvis looks.
-    """
-
-    time: Array
-    heel: Array
-    toe: Array
-    pelvis: Array
-    heading: Array
-
-    def ahead(self, part: Array) -> Array:
-        """`(n, 2)` how far a part of each foot is ahead of the pelvis [m]."""
-        return np.asarray(np.einsum("nfk,nk->nf", part[..., :2] - self.pelvis[:, None], self.heading))
-
-
-class _Step(NamedTuple):
-    """One foot from heel strike to heel strike."""
-
-    side: str
-    strike: float
-    off: float
-    end: float
-    why: str
+"""Events of a broken stride at an end belong to the walk if they lie within this many strides of it."""
 
 
 def walking(feet: Feet, *, periodic: bool = False) -> tuple[Event, ...]:
@@ -129,7 +72,7 @@ def _one_way(feet: Feet, backwards: bool) -> tuple[tuple[Event, ...], int, str]:
     events = candidates(feet.time, sign * feet.ahead(first), sign * feet.ahead(last))
     if backwards:
         events = [dataclasses.replace(event, source=f"{SOURCE}, walking backwards") for event in events]
-    steps = [step for side in SIDES for step in _steps(feet, first, events, side)]
+    steps = agreed([step for side in SIDES for step in steps_of(feet, first, events, side)])
     if not steps:
         return _too_short(feet, first, events), 0, ""
     good = [step for step in steps if not step.why]
@@ -137,76 +80,6 @@ def _one_way(feet: Feet, backwards: bool) -> tuple[tuple[Event, ...], int, str]:
         why = Counter(step.why for step in steps).most_common(1)[0][0]
         return (), 0, f"no gait cycles found: {why}"
     return _kept(events, steps, good), len(good), ""
-
-
-def _steps(feet: Feet, first: Array, events: list[Event], side: str) -> list[_Step]:
-    """Every span between two strikes of a foot, and what speaks against it."""
-    mine = [event for event in events if event.side == side]
-    strikes = [event.time for event in mine if event.kind == "heel_strike"]
-    other = [event for event in events if event.side != side]
-    steps = []
-    for a, b in pairwise(strikes):
-        offs = [event.time for event in mine if event.kind == "toe_off" and a < event.time < b]
-        why = "heel strikes and toe-offs of one foot do not take turns" if len(offs) != 1 else ""
-        why = why or _order(other, a, b) or _against(feet, first, SIDES.index(side), (a, offs[0], b))
-        steps.append(_Step(side, a, offs[0] if offs else a, b, why))
-    return steps
-
-
-def _order(other: list[Event], a: float, b: float) -> str:
-    """What in the other foot's events speaks against a stride from a to b."""
-    if b - a < QUICKEST:
-        return f"the feet swing to and fro in less than {QUICKEST:g} s: noise?"
-    strikes = [event.time for event in other if event.kind == "heel_strike" and a < event.time < b]
-    if len(strikes) != 1:
-        return "the left and the right foot do not take turns"
-    if not APART < (strikes[0] - a) / (b - a) < 1 - APART:
-        return "both feet move forward together; in a walk they take turns"
-    early = a - EARLY * (b - a)
-    if not any(event.kind == "toe_off" and early < event.time < strikes[0] for event in other):
-        return "one foot does not leave the ground while the other one stands"
-    return ""
-
-
-def _against(feet: Feet, first: Array, k: int, moments: tuple[float, float, float]) -> str:
-    """What in the path of foot k speaks against a stride with these strike, toe-off and next strike."""
-    strike, off, end = moments
-    high = _in_the_air(feet, first[:, k, 2], strike, off, end)
-    if high:
-        return high
-    sole = np.minimum(feet.heel[:, k, 2], feet.toe[:, k, 2])
-    stance, swing = (_mean(feet.time, sole, a, b) for a, b in ((strike, off), (off, end)))
-    if stance > swing + LIFTED:
-        return "the feet are higher in stance than in swing"
-    a, b = (strike + part * (off - strike) for part in REST)
-    resting = np.interp(np.linspace(a, b, 20), feet.time, sole)
-    if np.ptp(resting) > LEVEL:
-        return "the feet go up and down where they should rest on the ground: cycling?"
-    path = np.stack(
-        [np.interp([strike, end, a, b], feet.time, first[:, k, axis]) for axis in range(2)], axis=1
-    )
-    ground = (path[3] - path[2]) / (b - a)
-    length = float(np.linalg.norm(path[1] - path[0] - ground * (end - strike)))
-    if length < SHORTEST:
-        return f"the feet do not get along: stepping on the spot; strides of less than {SHORTEST:g} m"
-    return ""
-
-
-def _in_the_air(feet: Feet, height: Array, strike: float, off: float, end: float) -> str:
-    """Whether a part of the foot is too high to strike the ground, in words."""
-    rest = _mean(feet.time, height, *(strike + part * (off - strike) for part in REST))
-    swing = height[(feet.time >= off) & (feet.time <= end)]
-    lift = float(swing.max()) - rest if len(swing) else 0.0
-    above = float(np.interp(strike, feet.time, height)) - rest
-    if above <= AIRBORNE[0] * max(lift, 0.0) + AIRBORNE[1]:
-        return ""
-    return "the feet are furthest ahead in the air, not on the ground: marching on the spot, or cycling?"
-
-
-def _mean(time: Array, y: Array, start: float, end: float) -> float:
-    """Mean of a curve over a span of time."""
-    t = np.linspace(start, end, 20)
-    return float(np.interp(t, time, y).mean())
 
 
 def _too_short(feet: Feet, first: Array, events: list[Event]) -> tuple[Event, ...]:
@@ -220,13 +93,13 @@ def _too_short(feet: Feet, first: Array, events: list[Event]) -> tuple[Event, ..
         for strike, off in pairwise(mine):
             if strike.kind != "heel_strike":
                 continue
-            high = _in_the_air(feet, first[:, k, 2], strike.time, off.time, float(feet.time[-1]))
+            high = in_the_air(feet, first[:, k, 2], strike.time, off.time, float(feet.time[-1]))
             if high:
                 raise GaitError(f"no gait cycles found: {high}")
     return tuple(events)
 
 
-def _kept(events: list[Event], steps: list[_Step], good: list[_Step]) -> tuple[Event, ...]:
+def _kept(events: list[Event], steps: list[Step], good: list[Step]) -> tuple[Event, ...]:
     """The events of good steps, and those before the first and after the last that touch no other motion."""
     usual = float(np.median([step.end - step.strike for step in good]))
     sure = {(step.side, t) for step in good for t in (step.strike, step.off, step.end)}

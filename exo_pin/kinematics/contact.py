@@ -10,7 +10,9 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
-from exo_pin.gait import Event, Gait, bouts
+from exo_pin.gait import Event, Gait
+from exo_pin.gait.bouts import walking
+from exo_pin.gait.steps import Feet
 from exo_pin.gait.strides import strides, unrolled
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
@@ -87,8 +89,8 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     ):  # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
         along = soles - T[:, None, None, 0, :3, 3]
         soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
-    feet = bouts.Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
-    found = bouts.walking(feet, periodic=gait.periodic)
+    feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
+    found = walking(feet, periodic=gait.periodic)
     _check_strides(dataclasses.replace(gait, events=found))
     return found
 
