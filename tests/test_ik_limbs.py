@@ -13,7 +13,10 @@ from exo_pin.devices import find
 from exo_pin.gait import normative_gait
 from exo_pin.ik import solvers
 from exo_pin.ik.batch_limb import descend
+from exo_pin.ik.bend import bend
 from exo_pin.ik.branches import branches, motion
+from exo_pin.ik.limb import residual
+from exo_pin.ik.pace import HASTE, pace
 from exo_pin.ik.problem import problem
 from exo_pin.ik.pull import aims, pull
 from exo_pin.kinematics import poses
@@ -146,3 +149,74 @@ def test_a_reachable_target_is_met_from_far_away_by_other_starts(rng):
     answer = ik.track(robot, targets, far, settings=settings)
     assert answer.position_error[answer.converged].max() <= 1e-9
     assert answer.converged.mean() > 0.9
+
+
+def _feet(samples):
+    gait, robot = normative_gait().resampled(samples), load_robot()
+    return gait, dict(
+        zip(FEET, poses(robot, robot.from_gait(gait), FEET, base=gait.base).swapaxes(0, 1), strict=True)
+    )
+
+
+@pytest.mark.parametrize("device", ["lopes8", "planar5"])
+@pytest.mark.parametrize("pelvis", ["recorded", "device"])
+def test_the_motion_after_targets_out_of_reach_is_continuous(device, pelvis):
+    """These devices jumped by 25 to 38 degrees here, at any sampling: a least error ceased to be one."""
+    robot, fastest = load_robot(device=device), []
+    for samples in (100, 300):
+        gait, feet = _feet(samples)
+        track = ik.track(robot, feet, base=gait.base if pelvis == "recorded" else None)
+        assert not track.converged.any()
+        task = problem(robot, feet, None, gait.base if pelvis == "recorded" else None)
+        limb = task.limbs[0]
+        most = pace(branches(limb), task.goals_of(limb))[1:]
+        assert (np.abs(np.diff(track.q[:, limb.q], axis=0)) <= most + EXACT).all()
+        fastest.append(np.abs(np.diff(track.q, axis=0)).max() * samples)
+    assert fastest[1] == pytest.approx(fastest[0], rel=0.2)  # a speed, not a jump
+
+
+def test_targets_that_are_met_set_the_pace_themselves():
+    robot = load_robot(device="planar7")
+    q = np.zeros((40, robot.nq))
+    q[20:] = np.clip(robot.q({"left_knee_flexion": 0.5, "right_hip_flexion": 0.4}), robot.lower, robot.upper)
+    targets = {foot: poses(robot, q, [foot])[:, 0] for foot in FEET}
+    assert ik.track(robot, targets, robot.q()).converged.all()
+
+
+def test_the_pace_is_the_way_over_the_arm_and_the_turn():
+    robot = load_robot(device="lokomat")
+    T = np.tile(poses(robot, robot.q(), ["left_foot"])[0], (4, 1, 1))
+    T[1:, 0, 3] += 0.02
+    T[2:, :3, :3] = T[0, :3, :3] @ _about_y(0.1)
+    task = problem(robot, {"left_foot": T}, None, None)
+    joints = branches(task.limbs[0])
+    most = pace(joints, task.goals_of(task.limbs[0]))
+    leg = robot.body.leg("left")
+    arms = np.array([np.inf, leg.thigh + leg.shank + leg.ankle_height, leg.shank + leg.ankle_height])
+    assert np.isinf(most[0]).all()
+    assert most[1] == pytest.approx(HASTE * np.array([0.02, *(0.02 / arms[1:])]))
+    assert most[2] == pytest.approx(np.maximum(most[1], HASTE * np.array([0.0, 0.1, 0.1])))
+    assert np.array_equal(most[3], most[2])
+
+
+def _about_y(angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+
+
+@pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])
+def test_one_sample_and_many_bend_alike(device, rng):
+    _, limb, goals = _task(device, rng) if device != "h2" else _legs(device, rng)
+    joints, data = branches(limb), limb.model.createData()
+    q = rng.uniform(-0.4, 0.4, (len(limb.q), 20))
+    rest = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2)), q).rest
+    for k in range(20):
+        residual(limb, data, q[:, k], goals, k)
+        assert bend(limb, data, goals, k, (1.2, 1.0)) == pytest.approx(rest[..., k], abs=EXACT)
+
+
+def _legs(device, rng):
+    robot = load_robot(device=device)
+    feet = poses(load_robot(), rng.normal(0, 0.2, (20, 12)), FEET)
+    task = problem(robot, {"left_foot": feet[:, 0]}, None, None)
+    return task, task.limbs[0], task.goals_of(task.limbs[0])

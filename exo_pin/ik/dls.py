@@ -9,11 +9,13 @@ quadratic, and stays where the target is out of reach, so that the step remains 
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.ik.bend import bend, definite
 from exo_pin.ik.boxstep import box_step
 from exo_pin.ik.limb import Limb, residual
 from exo_pin.ik.settings import Dls
@@ -24,7 +26,9 @@ Array = npt.NDArray[np.float64]
 _FLOOR = 1e-13  # keeps the normal equations definite at a singular pose
 _STUCK = 1e-10  # a step this small changes nothing any more [rad, m]
 _STILL = 1e-7  # the same where the answer is a compromise with noise
+_ROUNDED = 1e-8  # the next quadratic step is below rounding: a cost that does not fall is at its least
 _CALMER, _STRONGER = 0.25, 4.0
+_NOTHING = np.zeros((0, 0))
 
 
 class Try(NamedTuple):
@@ -47,12 +51,13 @@ def best_try(
     *,
     reachable: bool = True,
     free: bool = False,
+    compromise: bool = False,
 ) -> Try:
     """The answer from the seed; from other starts if that one got stuck short of a reachable target.
 
-    `free`: the seed is no neighbour's answer, so that leaving it costs nothing.
+    `free`: the seed is no neighbour's answer, so that leaving it costs nothing. `compromise`: see `descend`.
     """
-    first = descend(limb, data, seed, goals, k, settings, free=free)
+    first = descend(limb, data, seed, goals, k, settings, free=free, compromise=compromise)
     steps = first.steps
     if first.converged or not reachable or (settings.damping and not free):
         return first
@@ -65,30 +70,55 @@ def best_try(
 
 
 def descend(
-    limb: Limb, data: Any, seed: Array, goals: list[Goal], k: int, settings: Dls, *, free: bool = False
+    limb: Limb,
+    data: Any,
+    seed: Array,
+    goals: list[Goal],
+    k: int,
+    settings: Dls,
+    *,
+    free: bool = False,
+    compromise: bool = False,
 ) -> Try:
-    """Levenberg-Marquardt steps within the limits from one start; `free`: no price on leaving the seed."""
-    scale = (settings.position_weight, settings.rotation_weight)
+    """Levenberg-Marquardt steps within the limits from one start.
+
+    `free`: no price on leaving the seed. `compromise`: the targets cannot all be met, so that steps with the
+    whole second derivative (`bend`) are the shorter way.
+    """
+    look = partial(_look, limb, data, goals, k, settings, compromise)
     price = 0.0 if free else settings.damping**2
     start = q = np.minimum(np.maximum(seed, limb.lower), limb.upper)
-    e, J, errors = residual(limb, data, q, goals, k, scale)
+    e, J, errors, rest = look(q)
     away = np.zeros(limb.model.nv)
     cost, factor, step = float(e @ e), 1.0, 0
     for step in range(1, settings.max_iterations + 1):
         if price == 0.0 and not np.nanmax(errors) > settings.tolerance:
             return Try(q, errors, step - 1, cost, True)
-        A = J.T @ J
+        A, g, room = J.T @ J, J.T @ e + price * away, limb.box(q)
         A[np.diag_indices_from(A)] += factor * cost + price + _FLOOR
-        x = box_step(A, J.T @ e + price * away, *limb.box(q))
-        if np.abs(x).max() < (_STILL if price else _STUCK):
+        x = box_step(*(definite(A, g, rest, *room) if compromise else (A, g)), *room)
+        size = np.abs(x).max()
+        if size < (_STILL if price else _STUCK):
             break
         trial = limb.moved(q, x)
-        e_new, J_new, errors_new = residual(limb, data, trial, goals, k, scale)
+        there = look(trial)
         away_new = limb.difference(trial, start) if price else away
-        cost_new = float(e_new @ e_new + price * (away_new @ away_new))
+        cost_new = float(there[0] @ there[0] + price * (away_new @ away_new))
         if cost_new < cost:
-            q, e, J, errors, away, cost = trial, e_new, J_new, errors_new, away_new, cost_new
+            q, away, cost = trial, away_new, cost_new
+            e, J, errors, rest = there
             factor *= _CALMER
+        elif compromise and size < _ROUNDED:
+            break
         else:
             factor *= _STRONGER
     return Try(q, errors, step, cost, not np.nanmax(errors) > settings.tolerance)
+
+
+def _look(
+    limb: Limb, data: Any, goals: list[Goal], k: int, settings: Dls, compromise: bool, q: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Error, Jacobian, distances and angles, and for a compromise what bends the cost."""
+    scale = (settings.position_weight, settings.rotation_weight)
+    e, J, errors = residual(limb, data, q, goals, k, scale)
+    return e, J, errors, bend(limb, data, goals, k, scale) if compromise else _NOTHING

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
 Rows = npt.NDArray[np.int64]
-_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 _SKEW = np.array([pin.skew(axis).ravel() for axis in np.eye(3)])
 """Takes vectors (m, 3) to their cross-product matrices (m, 9)."""
 
@@ -77,6 +77,12 @@ def limbs(robot: Robot, frames: tuple[str, ...], *, base_moves: bool) -> list[Li
     return [_limb(robot, tuple(names), union) for names, union in groups]
 
 
+def narrowed(limb: Limb, lower: Array, upper: Array) -> Limb:
+    """The same limb within further limits (nq,); where they leave nothing, its own limits win."""
+    low, high = (np.clip(limit, limb.lower, limb.upper) for limit in (lower, upper))
+    return replace(limb, lower=low, upper=high)
+
+
 def residual(
     limb: Limb, data: Any, q: Array, goals: list[Goal], k: int, scale: tuple[float, float] = (1.0, 1.0)
 ) -> tuple[Array, Array, Array]:
@@ -85,7 +91,7 @@ def residual(
     parts, slopes, errors = [], [], np.full((2, len(goals)), np.nan)
     for f, (index, goal) in enumerate(zip(limb.ids, goals, strict=True)):
         M = pin.updateFramePlacement(limb.model, data, index)
-        J = pin.getFrameJacobian(limb.model, data, index, _AXES).reshape(6, -1)  # one joint: a vector
+        J = pin.getFrameJacobian(limb.model, data, index, AXES).reshape(6, -1)  # one joint: a vector
         R = M.rotation
         e, slope, errors[0, f] = _points(goal, k, R, M.translation, J)
         parts.append(scale[0] * e)

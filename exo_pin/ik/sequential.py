@@ -5,26 +5,35 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.dls import best_try
+from exo_pin.ik.branches import branches
+from exo_pin.ik.dls import best_try, descend
 from exo_pin.ik.leg import leg
-from exo_pin.ik.limb import Limb
+from exo_pin.ik.limb import Limb, narrowed
+from exo_pin.ik.pace import pace
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
+from exo_pin.ik.targets import Goal
+
+Array = npt.NDArray[np.float64]
 
 
 def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
     """Write the answers for one limb."""
     goals, places = task.goals_of(limb), task.places_of(limb)
     data = limb.model.createData()
-    near = reachable(task, limb, sheet)
+    near, compromise = reachable(task, limb, sheet), not (limb.floats or enough(limb, goals))
     own = task.seed.ndim == 2
     seed = limb.middle if own else task.seed[limb.q]
+    paces = _paces(limb, goals) if compromise and settings.warm_start and not own else None
     for k in range(task.n):
         if own:
             seed = task.seed[k, limb.q]
-        free = k == 0 and not own
-        answer = best_try(limb, data, seed, goals, k, settings, reachable=bool(near[k]), free=free)
+        how = {"free": k == 0 and not own, "compromise": compromise}
+        answer = best_try(limb, data, seed, goals, k, settings, reachable=bool(near[k]), **how)
+        if paces is not None and not answer.converged and (np.abs(answer.q - seed) > paces[k]).any():
+            slow = narrowed(limb, seed - paces[k], seed + paces[k])
+            answer = descend(slow, data, seed, goals, k, settings, compromise=True)
         sheet.q[k, limb.q] = answer.q
         sheet.errors[:, k, places] = answer.errors
         sheet.steps[k] += answer.steps
@@ -39,6 +48,15 @@ def reachable(task: Problem, limb: Limb, sheet: Sheet) -> npt.NDArray[np.bool_]:
     legs = [leg(task.robot, name) for name in limb.frames]
     doubt = [0.0 if chain is None else chain.doubt for chain in legs]
     short = np.asarray((sheet.slack[:, places] < np.negative(doubt)).any(axis=1))
+    return np.asarray(~short & enough(limb, goals))
+
+
+def enough(limb: Limb, goals: list[Goal]) -> bool:
+    """Whether the joints are as many as the equations; with fewer, a compromise is all that can be had."""
     asked = sum(goal.local.size + (3 if goal.R is not None else 0) for goal in goals)
-    enough = limb.model.nv >= asked  # fewer joints than equations: a compromise is all that can be had
-    return np.asarray(~short & enough)
+    return bool(limb.model.nv >= asked)
+
+
+def _paces(limb: Limb, goals: list[Goal]) -> Array | None:
+    joints = branches(limb)
+    return None if joints is None else pace(joints, goals)

@@ -1,0 +1,73 @@
+"""The second derivative that Gauss-Newton steps leave out, for one sample; `pull` has it for many.
+
+Where targets are met it vanishes. At a compromise it does not, and without it the steps only creep.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio as pin
+
+from exo_pin.ik.limb import AXES, Limb
+from exo_pin.ik.targets import Goal
+
+Array = npt.NDArray[np.float64]
+
+
+def bend(limb: Limb, data: Any, goals: list[Goal], k: int, scale: tuple[float, float]) -> Array:
+    """Half the Hessian of the sum of squares, less J^T J (nv, nv), where `residual` was just asked.
+
+    The formulas stand in `exo_pin.ik.pull`; the limb has a fixed base.
+    """
+    H = np.zeros((limb.model.nv, limb.model.nv))
+    for index, goal in zip(limb.ids, goals, strict=True):
+        J = pin.getFrameJacobian(limb.model, data, index, AXES).reshape(6, -1)
+        M, spin = data.oMf[index], J[3:]
+        across = np.zeros_like(spin)
+        for point, target, weight in zip(goal.local, goal.p[k], goal.weight[k], strict=True):
+            arm = M.rotation @ point
+            force = (scale[0] * weight) ** 2 * (target - M.translation - arm)
+            across -= pin.skew(force) @ (J[:3] - pin.skew(arm) @ spin)
+        H -= _mirrored(spin.T @ across)
+        if goal.R is not None:
+            turn = pin.log3(goal.R[k] @ M.rotation.T)
+            twist = pin.skew(turn) @ spin
+            weight = (scale[1] * goal.rotation_weight) ** 2
+            H -= weight * (_bow(turn) * (twist.T @ twist) - 0.5 * _mirrored(spin.T @ twist))
+    return H
+
+
+def definite(A: Array, g: Array, rest: Array, down: Array, up: Array) -> tuple[Array, Array]:
+    """The equations of a step with the whole second derivative, or those of Gauss-Newton.
+
+    Joints pressed against their limits are left where they are, as in `batch_limb`.
+
+    Args:
+        A: The damped Gauss-Newton matrix (nv, nv).
+        g: Half the negative gradient (nv,).
+        rest: What `bend` says.
+        down: How far a step may go down (nv,).
+        up: How far it may go up.
+    """
+    free = ((down < 0.0) | (g > 0.0)) & ((up > 0.0) | (g < 0.0))
+    block = np.outer(free, free)
+    whole = np.where(block, A + rest, np.eye(len(g)))
+    try:
+        np.linalg.cholesky(whole)
+    except np.linalg.LinAlgError:
+        return A, g
+    return whole, np.where(free, g, 0.0)
+
+
+def _bow(turn: Array) -> float:
+    """What the inverse Jacobian of a rotation vector holds of its square; 1/12 for a small one."""
+    half = 0.5 * max(float(np.linalg.norm(turn)), 1e-4)
+    return float((1.0 - half / np.tan(half)) / (4.0 * half * half))
+
+
+def _mirrored(A: Array) -> Array:
+    upper = np.triu(A)
+    return np.asarray(upper + np.triu(A, 1).T)
