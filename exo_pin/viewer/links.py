@@ -11,13 +11,15 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections import defaultdict
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import DescriptionError
 from exo_pin.viewer import solids
+from exo_pin.viewer.meshes import Meshes
 from exo_pin.viewer.protocol import Command, Material, draw, mesh, place
 from exo_pin.viewer.solids import Solid
 
@@ -38,6 +40,14 @@ PLAIN = (0.42, 0.10)
 
 GREY = (0.7, 0.7, 0.7, 1.0)
 """Colour where the URDF names none."""
+
+BONE = Material((0.62, 0.67, 0.74, 1.0), 0.5, 0.1)
+"""Look of the capsules that stand for what cannot be drawn."""
+
+SHORTEST_BONE, SLENDER, THICKEST = 0.03, 0.13, 0.045  # [m], thickness over length, [m]
+
+BOTH_SIDES = (("side", 2),)
+"""Faces of meshes from elsewhere may be turned the wrong way round: three.js draws both sides."""
 
 MOVING = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
 
@@ -71,7 +81,8 @@ class Linkage:
         turns: The moving joints, in the URDF's order.
         looks: Nodes that hold the pictures, one a link.
         commands: What draws it.
-        skipped: Number of visuals that are no primitives and are not drawn.
+        skipped: Number of visuals that are neither primitives nor meshes that were found: not drawn.
+        shapes: Link name -> all its pictures as one solid, in the link's axes.
     """
 
     root: str
@@ -80,15 +91,18 @@ class Linkage:
     looks: tuple[str, ...]
     commands: tuple[Command, ...]
     skipped: int
+    shapes: dict[str, Solid]
 
 
-def linkage(urdf: str, root: str, *, paint: Material | None = None) -> Linkage:
+def linkage(urdf: str, root: str, *, paint: Material | None = None, meshes: Meshes | None = None) -> Linkage:
     """Nest the links of a URDF below a path.
 
     Args:
         urdf: The URDF's text.
         root: Path of the node for the root link, e.g. `"/exo_pin/exo"`.
         paint: Material for everything instead of the URDF's own.
+        meshes: Where mesh files are read; None: they are not drawn. Links of which nothing can be drawn get
+            capsules then, unless other links have their looks and this one never had any.
 
     Raises:
         DescriptionError: The text is no URDF with one root link.
@@ -97,7 +111,7 @@ def linkage(urdf: str, root: str, *, paint: Material | None = None) -> Linkage:
         robot = ET.fromstring(urdf)
     except ET.ParseError as error:
         raise DescriptionError(f"the URDF cannot be read: {error}") from error
-    return _Nesting(robot, paint).below(root)
+    return _Nesting(robot, paint, meshes).below(root)
 
 
 def pose(origin: ET.Element | None) -> Array:
@@ -112,8 +126,9 @@ def pose(origin: ET.Element | None) -> Array:
 class _Nesting:
     """Walks the tree of links once and collects nodes, joints and pictures."""
 
-    def __init__(self, robot: ET.Element, paint: Material | None) -> None:
-        self.robot, self.paint = robot, paint
+    def __init__(self, robot: ET.Element, paint: Material | None, meshes: Meshes | None) -> None:
+        self.robot, self.paint, self.meshes = robot, paint, meshes
+        self.bare = meshes is not None and robot.find("link/visual") is None
         self.colors = {m.get("name", ""): c for m in robot.findall("material") if (c := _rgba(m)) is not None}
         self.children: dict[str, list[ET.Element]] = defaultdict(list)
         for joint in robot.findall("joint"):
@@ -124,6 +139,7 @@ class _Nesting:
         self.looks: list[str] = []
         self.commands: list[Command] = []
         self.skipped = 0
+        self.shapes: dict[str, Solid] = {}
 
     def below(self, path: str) -> Linkage:
         moved = {_end(joint, "child") for joint in self.robot.findall("joint")}
@@ -131,31 +147,55 @@ class _Nesting:
         if len(roots) != 1:
             raise DescriptionError(f"the URDF must have one root link, not {len(roots)}: {', '.join(roots)}")
         self.link(roots[0], path)
-        return Linkage(
-            path, self.links, tuple(self.turns), tuple(self.looks), tuple(self.commands), self.skipped
-        )
+        parts = tuple(self.turns), tuple(self.looks), tuple(self.commands)
+        return Linkage(path, self.links, *parts, self.skipped, self.shapes)
 
     def link(self, name: str, path: str) -> None:
         self.links[name] = path
-        self.pictures(self.elements[name], f"{path}/look")
+        self.pictures(name, f"{path}/look")
         for joint in self.children[name]:
             self.joint(joint, path)
 
-    def pictures(self, link: ET.Element, path: str) -> None:
+    def pictures(self, name: str, path: str) -> None:
         """One mesh per material."""
         looks: dict[Material, list[Solid]] = defaultdict(list)
-        for visual in link.findall("visual"):
-            solid = _solid(visual.find("geometry"))
-            if solid is None:
-                self.skipped += 1
-            else:
-                looks[self.material(visual)].append(solid.placed(pose(visual.find("origin"))))
+        visuals = self.elements[name].findall("visual")
+        for visual in visuals:
+            found = list(self.visual(visual))
+            self.skipped += not found
+            for solid, material in found:
+                looks[material].append(solid.placed(pose(visual.find("origin"))))
+        if self.meshes is not None and not looks and (visuals or self.bare):
+            looks[self.paint or BONE].extend(self.bones(name))
+        looks = {material: parts for material, parts in looks.items() if parts}
         if looks:
             self.looks.append(path)
+            self.shapes[name] = solids.joined(part for parts in looks.values() for part in parts)
         for k, (material, parts) in enumerate(looks.items()):
             whole = solids.joined(parts)
             shape = mesh(whole.vertices, whole.faces, whole.normals)
             self.commands.append(draw(f"{path}/{k}", shape, material))
+
+    def visual(self, visual: ET.Element) -> Iterator[tuple[Solid, Material]]:
+        """What can be drawn of a visual: a primitive, or the parts of a mesh."""
+        geometry = visual.find("geometry")
+        solid = _solid(geometry)
+        if solid is not None:
+            yield solid, self.material(visual)
+        found = None if geometry is None else geometry.find("mesh")
+        if self.meshes is None or found is None:
+            return
+        x, y, z = _numbers(found.get("scale") or "1 1 1")
+        for part, color in self.meshes.solids(found.get("filename", ""), (x, y, z)):
+            yield part, replace(self.material(visual, color), more=BOTH_SIDES)
+
+    def bones(self, name: str) -> Iterator[Solid]:
+        """Capsules from a link's origin to the joints that hang on it."""
+        for joint in self.children[name]:
+            end = pose(joint.find("origin"))[:3, 3]
+            length = float(np.linalg.norm(end))
+            if length > SHORTEST_BONE:
+                yield solids.capsule(end, min(SLENDER * length, THICKEST))
 
     def joint(self, joint: ET.Element, path: str) -> None:
         child, name = _end(joint, "child"), joint.get("name", "")
@@ -172,14 +212,15 @@ class _Nesting:
         self.turns.append(Turn(name, turn, (x, y, z), kind, _limits(joint)))
         self.link(child, turn)
 
-    def material(self, visual: ET.Element) -> Material:
+    def material(self, visual: ET.Element, color: solids.Color | None = None) -> Material:
+        """The URDF's own look, or a mesh's colour where the URDF names none."""
         if self.paint is not None:
             return self.paint
         element = visual.find("material")
         name = "" if element is None else element.get("name", "")
         own = None if element is None else _rgba(element)
         roughness, metalness = FINISHES.get(name, PLAIN)
-        return Material(own or self.colors.get(name, GREY), roughness, metalness)
+        return Material(own or self.colors.get(name) or color or GREY, roughness, metalness)
 
 
 def _solid(geometry: ET.Element | None) -> Solid | None:

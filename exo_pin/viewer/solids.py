@@ -14,7 +14,11 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from exo_pin.viewer.protocol import translation
+
 Array = NDArray[np.float64]
+Color = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each from 0 to 1."""
 
 ROUND = 0.0025
 """Edges are rounded over this [m], or over a sixth of the thinnest side."""
@@ -99,6 +103,19 @@ def sphere(radius: float) -> Solid:
     faces = quads.reshape(-1, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
     flat = normals.reshape(-1, 3)
     return Solid(radius * flat, faces, flat)
+
+
+def capsule(end: ArrayLike, radius: float) -> Solid:
+    """A rod with round ends from the origin to a point (3,) [m]."""
+    tip = np.asarray(end, dtype=float)
+    length = float(np.linalg.norm(tip))
+    z = tip / length
+    x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
+    T = np.eye(4)
+    T[:3, :3] = np.stack([x / np.linalg.norm(x), np.cross(z, x / np.linalg.norm(x)), z], axis=1)
+    ball = sphere(radius)
+    rod = cylinder(radius, length).placed(translation(*(tip / 2)) @ T)
+    return joined([ball, rod, ball.placed(translation(*tip))])
 
 
 Numbers = dict[tuple[tuple[int, ...], int], int]

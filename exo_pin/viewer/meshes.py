@@ -1,0 +1,131 @@
+"""The meshes that a URDF names: found inside its own package alone, thinned, in the link's own metres.
+
+A URDF may be anybody's, so no file name in it is followed out of the folders that belong to it: the URDF's
+own folder (and the one above, where it lies in a folder like `urdf/`), the package that it lies in, packages
+beside that one, those of ROS's search path, and example-robot-data.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.errors import FormatError
+from exo_pin.viewer import meshfiles
+from exo_pin.viewer.solids import Color, Solid
+from exo_pin.viewer.thinning import shaded, thinned
+
+Array = NDArray[np.float64]
+
+Triple = tuple[float, float, float]
+
+FINENESS = 280
+"""Meshes are thinned to cells of this share of the robot's size: 6 mm for a person's."""
+
+INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
+"""Names of folders that lie inside a package rather than being it."""
+
+MANY = 3_000_000
+"""Triangles that are read at most; what comes then is left away."""
+
+
+class Meshes:
+    """Reads the meshes of one URDF; what cannot be had is counted in `missing`, with a reason."""
+
+    def __init__(self, urdf: Path | None, size: float) -> None:
+        self.urdf = None if urdf is None else Path(os.path.realpath(urdf))
+        self.cell = size / FINENESS
+        self.missing: dict[str, str] = {}
+        self.triangles = 0
+
+    def solids(self, name: str, scale: Triple) -> list[tuple[Solid, Color | None]]:
+        """The parts of a mesh by its file name in the URDF, each with its colour if it has one."""
+        path = self.find(name)
+        if path is None:
+            self.missing[name] = "not found in the URDF's package"
+            return []
+        try:
+            parts = _read(path)
+        except FormatError as error:
+            self.missing[name] = error.why
+            return []
+        self.triangles += sum(len(part.faces) for part in parts)
+        if self.triangles > MANY:
+            self.missing[name] = f"more than {MANY} triangles in all"
+            return []
+        return [(self._light(part, scale), part.color) for part in parts]
+
+    def find(self, name: str) -> Path | None:
+        """Where a file name of the URDF leads, or None where that is outside of what belongs to the URDF."""
+        if self.urdf is None or "\0" in name:
+            return None
+        scheme, mark, rest = name.partition("://")
+        if mark and scheme == "package":
+            package, _, inside = rest.partition("/")
+            tried = [(root, root / inside) for root in _packages(self.urdf, package)]
+        elif mark and scheme != "file":
+            return None
+        else:
+            tried = [(root, self.urdf.parent / (rest if mark else name)) for root in _own(self.urdf)]
+        for root, path in tried:
+            real = Path(os.path.realpath(path))
+            if real.is_relative_to(os.path.realpath(root)) and real.is_file():
+                return real
+        return None
+
+    def _light(self, part: meshfiles.Part, scale: Triple) -> Solid:
+        vertices = part.vertices * np.array(scale)
+        faces = part.faces if np.prod(scale) > 0 else part.faces[:, ::-1]
+        return shaded(*thinned(vertices, faces, self._cell(vertices)))
+
+    def _cell(self, vertices: Array) -> float:
+        """Smaller for small parts, so that a finger is not a lump; never so small that a grid overflows."""
+        size = float(np.ptp(vertices, axis=0).max())
+        return max(min(self.cell, size / 24), size / 4000, 1e-6)
+
+
+def _own(urdf: Path) -> Iterator[Path]:
+    """The folders in which a URDF may name files by their place."""
+    yield urdf.parent.parent if urdf.parent.name.lower() in INNER else urdf.parent
+    for folder in urdf.parents:
+        if (folder / "package.xml").is_file():
+            yield folder
+            return
+
+
+def _packages(urdf: Path, name: str) -> Iterator[Path]:
+    """The folders that a package of that name may be."""
+    if not name or name in (".", ".."):
+        return
+    for folder in urdf.parents:
+        if folder.name == name:
+            yield folder
+        if (folder / name / "package.xml").is_file():
+            yield folder / name
+    for root in filter(None, os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)):
+        yield from (folder for folder in (Path(root), Path(root) / name) if folder.name == name)
+    for root in filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
+        yield Path(root) / "share" / name
+    if name == "example-robot-data":
+        yield from _example_robot_data()
+
+
+@cache
+def _example_robot_data() -> tuple[Path, ...]:
+    try:
+        files = distribution("example-robot-data").files or []
+    except PackageNotFoundError:
+        return ()
+    mark = "example-robot-data/package.xml"
+    return tuple(Path(str(file.locate())).parent for file in files if str(file).endswith(mark))
+
+
+@cache
+def _read(path: Path) -> tuple[meshfiles.Part, ...]:
+    return tuple(meshfiles.read(path))

@@ -1,0 +1,85 @@
+"""Meshes made light: vertices clustered on a grid with their edges kept, normals smooth but for creases."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.viewer.solids import Solid
+
+Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
+
+CREASE = np.cos(np.radians(38.0))
+"""Faces that meet at a sharper angle show an edge (a choice)."""
+
+STIFF = 1e-3
+"""Directions in which a cell's planes say less than this share of the most are left at the mean."""
+
+
+def thinned(vertices: Array, faces: Faces, cell: float) -> tuple[Array, Faces]:
+    """Vertices of the same cell of a grid become one, where the planes of their faces meet best.
+
+    Lindstrom 2000, Out-of-core simplification of large polygonal models: flat walls stay flat and edges
+    stay edges, which means of vertices would round off.
+
+    Args:
+        vertices: `(v, 3)` [m].
+        faces: `(f, 3)`.
+        cell: Side of a cell [m].
+
+    Returns:
+        Fewer vertices and the faces that are left.
+    """
+    keys = np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64)
+    flat = np.ravel_multi_index(tuple(keys.T), tuple(keys.max(axis=0) + 1))
+    _, index, count = np.unique(flat, return_inverse=True, return_counts=True)
+    mean = np.stack([np.bincount(index, vertices[:, k]) for k in range(3)], axis=1) / count[:, None]
+    corners = index[faces]
+    kept = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    return _pulled(mean, vertices, faces, corners, cell), np.unique(corners[kept], axis=0)
+
+
+def shaded(vertices: Array, faces: Faces) -> Solid:
+    """A solid with normals: at each corner the mean of the faces around that turn less than a crease."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    area = np.cross(b - a, c - a)
+    unit = area / np.maximum(np.linalg.norm(area, axis=1, keepdims=True), 1e-30)
+    corner = np.argsort(faces.ravel(), kind="stable")  # corners of one vertex stand together
+    count = np.bincount(faces.ravel(), minlength=len(vertices))
+    group = np.repeat(count, count)  # how many share the corner's vertex
+    one = np.repeat(np.arange(len(corner)), group)
+    start = np.repeat(np.cumsum(count) - count, count)
+    other = np.repeat(start - (np.cumsum(group) - group), group) + np.arange(len(one))
+    mine, its = corner[one] // 3, corner[other] // 3
+    near = np.einsum("pk,pk->p", unit[mine], unit[its]) > CREASE
+    sums = [np.bincount(corner[one[near]], area[its[near], k], faces.size) for k in range(3)]
+    normals = np.stack(sums, axis=1).astype(float)
+    long = np.linalg.norm(normals, axis=1, keepdims=True)
+    return _joined(vertices, faces, normals / np.maximum(long, 1e-30))
+
+
+def _pulled(mean: Array, vertices: Array, faces: Faces, corners: Faces, cell: float) -> Array:
+    """The means moved to where the planes of the faces at each cell meet best, within the cell."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    n = np.cross(b - a, c - a) / cell**2
+    A, r = np.zeros((len(mean), 9)), np.zeros((len(mean), 3))
+    outer = (n[:, :, None] * n[:, None, :]).reshape(-1, 9)
+    for k in range(3):
+        at = corners[:, k]
+        pull = n * np.einsum("fk,fk->f", n, a - mean[at])[:, None]
+        A += np.stack([np.bincount(at, outer[:, j], len(mean)) for j in range(9)], axis=1)
+        r += np.stack([np.bincount(at, pull[:, j], len(mean)) for j in range(3)], axis=1)
+    values, axes = np.linalg.eigh(A.reshape(-1, 3, 3))
+    strong = values > STIFF * np.maximum(values[:, -1:], 1e-30)
+    along = np.einsum("vkj,vk->vj", axes, r)
+    step = np.einsum("vkj,vj->vk", axes, np.where(strong, along / np.where(strong, values, 1.0), 0.0))
+    return np.asarray(mean + np.where(np.abs(step).max(axis=1, keepdims=True) <= cell, step, 0.0))
+
+
+def _joined(vertices: Array, faces: Faces, normals: Array) -> Solid:
+    """Corners with the same place and (rounded) normal become one vertex."""
+    rounded = np.round(normals * 127).astype(np.int64) + 128
+    key = ((faces.ravel() * 256 + rounded[:, 0]) * 256 + rounded[:, 1]) * 256 + rounded[:, 2]
+    _, first, index = np.unique(key, return_index=True, return_inverse=True)
+    return Solid(vertices[faces.ravel()[first]], index.reshape(-1, 3), normals[first])
