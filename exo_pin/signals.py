@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,12 @@ ORDER = 4
 GAP = 0.2
 """Longest gap that is filled [s]: a sixth of a stride."""
 
+STANDS_OUT = 8.0
+"""A sample is an outlier if it is this many times the usual deviation off the curve around it."""
+
+TINY = 1e-12
+"""Deviations below are rounding."""
+
 EVEN = 1e-3
 """How far samples may lie off an even grid, as a fraction of the step."""
 
@@ -36,6 +43,20 @@ class Filled(NamedTuple):
     values: Array
     filled: int
     left: int
+
+
+class Outlier(NamedTuple):
+    """A sample that stands out of its curve.
+
+    Attributes:
+        name: Of the curve.
+        time: When [s].
+        off: How far it is off the cubic through its neighbours, in the curve's units.
+    """
+
+    name: str
+    time: float
+    off: float
 
 
 def lowpass(time: ArrayLike, y: ArrayLike, *, cutoff: float = CUTOFF, order: int = ORDER) -> Array:
@@ -103,23 +124,68 @@ def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
     return Filled(flat.reshape(values.shape), before - left, left)
 
 
-def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = 8.0) -> NDArray[np.bool_]:
-    """Which samples `(n, ...)` jump away from both neighbours by `factor` times the usual second difference.
+def longest_run(good: ArrayLike) -> tuple[int, int]:
+    """Start and stop of the longest run of True in `(n,)`; 0 and 0 if there is none."""
+    marked = np.concatenate([[False], np.asarray(good, dtype=bool), [False]])
+    runs = np.flatnonzero(marked[1:] != marked[:-1]).reshape(-1, 2)
+    if not len(runs):
+        return 0, 0
+    start, stop = runs[np.diff(runs, axis=1)[:, 0].argmax()]
+    return int(start), int(stop)
 
-    The usual is 1.4826 times the median absolute second difference (a robust standard deviation).
+
+def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = STANDS_OUT, least: float = 0.0) -> Array:
+    """How far samples stand out of their surroundings: 0 where they do not, and at the two samples of each end.
+
+    Each sample is compared with the cubic through its two neighbours on either side. It stands out if it is off
+    by `factor` times what is usual for the curve (1.4826 times the median, a robust standard deviation), by
+    `least`, and by more than the samples around it.
+
+    Args:
+        time: `(n,)` increasing [s].
+        y: `(n, ...)` curves without gaps.
+        factor: Times the usual.
+        least: Smaller deviations are no outliers, in units of y.
+
+    Returns:
+        `(n, ...)` signed deviations.
     """
-    values = np.asarray(y, dtype=float)
-    bad = np.zeros(values.shape, dtype=bool)
+    t, values = np.asarray(time, dtype=float), np.asarray(y, dtype=float)
+    off = np.zeros(values.shape)
     if len(values) < 5:
-        return bad
-    bend = np.abs(values[:-2] - 2 * values[1:-1] + values[2:])
-    usual = 1.4826 * np.nanmedian(bend, axis=0)
-    peak = bend > factor * np.maximum(usual, 1e-12)
-    stronger = np.ones_like(peak)
-    stronger[1:] &= bend[1:] >= bend[:-1]
-    stronger[:-1] &= bend[:-1] >= bend[1:]
-    bad[1:-1] = peak & stronger
-    return bad
+        return off
+    away = values[2:-2] - np.einsum("nk,nk...->n...", *_around(t, values))
+    usual = 1.4826 * np.median(np.abs(away), axis=0)
+    padded = np.pad(np.abs(away), [(2, 2)] + [(0, 0)] * (values.ndim - 1))
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 5, axis=0).max(axis=-1)
+    out = (np.abs(away) > np.maximum(factor * usual, max(least, TINY))) & (np.abs(away) == highest)
+    off[2:-2] = np.where(out, away, 0.0)
+    return off
+
+
+def outliers(time: ArrayLike, y: ArrayLike, names: Sequence[str], *, least: float) -> tuple[Outlier, ...]:
+    """The samples of named curves that stand out (`spikes`), sorted by time.
+
+    Args:
+        time: `(n,)` increasing [s].
+        y: `(n, m)` curves without gaps.
+        names: m names.
+        least: Smaller deviations are no outliers, in units of y.
+    """
+    off = spikes(time, y, least=least)
+    times = np.asarray(time, dtype=float)
+    return tuple(Outlier(names[k], float(times[i]), float(off[i, k])) for i, k in np.argwhere(off))
+
+
+def _around(t: Array, values: Array) -> tuple[Array, Array]:
+    """For each inner sample the four neighbours `(n, 4, ...)` and their Lagrange weights `(n, 4)`."""
+    rows = np.arange(2, len(t) - 2)[:, None] + np.array([-2, -1, 1, 2])
+    weights = np.ones(rows.shape)
+    for k in range(4):
+        for m in range(4):
+            if m != k:
+                weights[:, k] *= (t[2:-2] - t[rows[:, m]]) / (t[rows[:, k]] - t[rows[:, m]])
+    return weights, values[rows]
 
 
 def _rate(time: Array) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.formats import PRESETS, load_gait
+from exo_pin.formats import PRESETS, load_gait, save_gait
 from exo_pin.gait import normative_gait
 
 SAGITTAL = {
@@ -81,7 +81,7 @@ def test_units_in_the_names_are_believed_and_their_absence_is_refused(path):
     [
         ({"KneeX": "left_knee_flexion"}, "no column 'KneeX'; the file has"),
         ({"KneeL": "right_knee_flexion"}, "no column is mapped to left_knee_flexion"),
-        ({"note": "left_knee_flexion"}, "left_knee_flexion|note has a gap|expected a number"),
+        ({"note": "left_knee_flexion"}, "note is 'a', expected a number"),
         ({"200": "left_knee_flexion"}, "more than half a turn"),
     ],
 )
@@ -92,13 +92,43 @@ def test_what_does_not_fit_is_named(path, change, match):
         load_gait(path, mapping=mapping | change, units="deg")
 
 
-def test_unknown_joints_and_gaps_are_refused_with_their_place(path):
-    path.write_text(table(rows=[*ROWS, ["1", "", "", "6", "-4", "61"]]))
+def test_unknown_joints_and_rows_without_a_time_are_refused_with_their_place(path):
+    path.write_text(table(rows=[*ROWS, ["", "1", "", "6", "-4", "61"]]))
     with pytest.raises(UnknownNameError, match="did you mean 'left_knee_flexion'"):
         load_gait(path, mapping=SAGITTAL | {"KneeL": "left_knee_flexoin"}, units="deg")
-    with pytest.raises(FormatError, match="HipR has a gap") as caught:
+    for cell in ("", "nan"):
+        path.write_text(table(rows=[*ROWS, [cell, "1", "", "6", "-4", "61"]]))
+        with pytest.raises(FormatError, match=r"t is empty|does not increase") as caught:
+            load_gait(path, mapping=SAGITTAL, units="deg")
+        assert caught.value.line == 4
+
+
+@pytest.fixture
+def rows():
+    """Two seconds at 50 Hz; every angle a straight line, which filling must continue."""
+    return [[repr(k / 50), repr(10 + k / 10), "x", "5", "-3", "60"] for k in range(101)]
+
+
+@pytest.mark.parametrize("gap", ["", "nan", "NaN"])
+def test_short_gaps_are_filled_and_the_source_says_so(path, rows, gap):
+    for k in (20, 21, 22):
+        rows[k][1] = gap
+    path.write_text(table(rows=rows))
+    gait = load_gait(path, mapping=SAGITTAL, units="deg")
+    np.testing.assert_allclose(column(gait, "right_hip_flexion"), 10 + np.arange(101) / 10, atol=1e-9)
+    assert "3 angles in gaps up to 0.2 s filled" in gait.source
+
+
+def test_long_gaps_cut_the_walk_and_the_source_says_so(path, rows):
+    for k in (*range(20, 35), 100):
+        rows[k][1] = ""
+    path.write_text(table(rows=rows))
+    gait = load_gait(path, mapping=SAGITTAL, units="deg")
+    assert (len(gait), gait.time[0]) == (65, 0.7)
+    assert "rows 36 to 100 of 101, the rest has gaps" in gait.source
+    path.write_text(table(rows=[[*row[:1], "", *row[2:]] for row in rows]))
+    with pytest.raises(FormatError, match=r"no two rows in a row without gaps longer than 0\.2 s"):
         load_gait(path, mapping=SAGITTAL, units="deg")
-    assert caught.value.line == 4
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -113,6 +143,18 @@ def test_every_preset_reads_a_table_with_its_names_and_signs(path, name):
     path.write_text(table("\t", names, [[repr(x) for x in row] for row in values.tolist()]))
     gait = load_gait(path, preset=name, units="rad")
     np.testing.assert_allclose(gait.q, walk.q, atol=EXACT)
+
+
+def test_a_written_tsv_is_ours_and_one_column_more_makes_it_somebody_elses(path):
+    walk = normative_gait("free", samples=17)
+    path = path.with_suffix(".tsv")
+    save_gait(walk, path)
+    assert len(load_gait(path).events) == len(walk.events) > 0
+    lines = path.read_text().splitlines()
+    more = [line if line.startswith("#") else f"{line}\t{line.split(chr(9))[0]}x" for line in lines]
+    path.write_text("\n".join(more))
+    np.testing.assert_allclose(load_gait(path).q, walk.q, atol=EXACT)
+    assert "exo_pin" not in load_gait(path).source
 
 
 def test_our_own_columns_need_no_mapping_in_a_tsv(path):

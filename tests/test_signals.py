@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from exo_pin import signals
+from exo_pin.anatomy import JOINTS
 from exo_pin.errors import GaitError
+from exo_pin.gait import SPEEDS, normative_gait
 
 RATE = 100.0
 TIME = np.arange(2000) / RATE
@@ -69,8 +71,35 @@ def test_an_empty_curve_stays_empty():
     assert signals.filled([0, 1, 2], np.full((3, 1), np.nan)).left == 3
 
 
-def test_a_spike_is_found_and_a_smooth_curve_has_none(rng):
+def test_a_spike_is_found_with_its_time_and_size(rng):
     y = np.sin(2 * np.pi * TIME) + 1e-4 * rng.normal(size=len(TIME))
     assert not signals.spikes(TIME, y).any()
     y[700] += 1.0
-    assert np.flatnonzero(signals.spikes(TIME, y)).tolist() == [700]
+    y[1200] -= 0.5
+    off = signals.spikes(TIME, y)
+    assert np.flatnonzero(off).tolist() == [700, 1200]
+    np.testing.assert_allclose(off[[700, 1200]], [1.0, -0.5], atol=1e-2)
+
+
+def test_a_spike_is_found_in_uneven_time_too(rng):
+    t = np.cumsum(rng.uniform(0.005, 0.015, 600))
+    y = np.stack([np.sin(2 * np.pi * t), np.cos(3 * t)], axis=1)
+    y[300, 1] += 0.2
+    (found,) = signals.outliers(t, y, ("first", "second"), least=0.05)
+    assert found.name == "second"
+    assert found.time == pytest.approx(t[300])
+    assert found.off == pytest.approx(0.2, abs=1e-2)
+
+
+@pytest.mark.parametrize("samples", [25, 50, 100, 400])
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_normal_walks_have_no_outliers_at_any_sampling(speed, samples):
+    walk = normative_gait(speed, samples=samples).repeated(3)
+    assert signals.outliers(walk.time, walk.q, JOINTS, least=np.radians(1)) == ()
+
+
+def test_a_jump_is_an_outlier_and_too_few_samples_have_none():
+    y = np.where(TIME > 10, 1.0, 0.0)[:, None]
+    found = signals.outliers(TIME, y, ("step",), least=0.1)
+    assert {round(outlier.time) for outlier in found} == {10}
+    assert signals.outliers([0, 1, 2, 3], np.array([[0], [9], [0], [0]]), ("short",), least=0.1) == ()

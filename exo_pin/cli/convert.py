@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from exo_pin.cli import options
 
@@ -24,18 +23,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "output",
         metavar="OUT",
-        help="the new file; its ending (.csv .mot .sto .npz .yaml .json .c3d) is the format",
+        help="the new file; its ending (.csv .tsv .mot .sto .npz .yaml .json .c3d) is the format",
     )
     options.add_body(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Read and write."""
-    from exo_pin.formats import FORMATS, save_gait
+    from exo_pin.formats import save_gait
 
     gait = options.gait_from(args, options.body_from(args))
     save_gait(gait, args.output)
     print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s")
-    if gait.base is not None and not FORMATS[Path(args.output).suffix.lower()].base:
-        print("the pelvis's motion is left out: this format has joint angles only")
     return 0

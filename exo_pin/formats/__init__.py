@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, mapped, opensim, trajectory, trc
+from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, opensim, trajectory, trc
 from exo_pin.formats.forces import load_forces
 from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
@@ -43,29 +43,26 @@ class Format(NamedTuple):
         name: What people call it.
         suffixes: File name endings, in lower case.
         read: Path and what the user says of the file to gait.
-        write: Gait and path, or None where the format is only read.
-        base: Whether the pelvis's motion is kept.
+        write: Gait and path, or None where the format is only read. The pelvis's motion is kept.
     """
 
     name: str
     suffixes: tuple[str, ...]
     read: Callable[[Path, Reading], Gait]
     write: Callable[[Gait, Path], None] | None
-    base: bool
 
 
 _ALL = (
+    Format("exo_pin CSV, or any CSV with a mapping", (".csv",), gait_csv.read_gait, gait_csv.write_gait),
     Format(
-        "exo_pin CSV, or any CSV with a mapping", (".csv",), gait_csv.read_gait, gait_csv.write_gait, True
+        "exo_pin table with tabs, or any with a mapping", (".tsv",), gait_csv.read_tabs, gait_csv.write_tabs
     ),
-    Format("table with a mapping", (".tsv", ".txt"), mapped.read_gait, None, False),
-    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait, True),
-    Format("NumPy archive", (".npz",), gait_npz.read_gait, gait_npz.write_gait, True),
-    Format(
-        "ROS JointTrajectory, YAML", (".yaml", ".yml"), trajectory.read_yaml, trajectory.write_yaml, False
-    ),
-    Format("C3D model angles (Plug-in Gait)", (".c3d",), c3d.read_gait, c3dwrite.write_gait, True),
-    Format("ROS JointTrajectory, JSON", (".json",), trajectory.read_json, trajectory.write_json, False),
+    Format("any table with a mapping", (".txt",), gait_csv.read_tabs, None),
+    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait),
+    Format("NumPy archive", (".npz",), gait_npz.read_gait, gait_npz.write_gait),
+    Format("ROS JointTrajectory, YAML", (".yaml", ".yml"), trajectory.read_yaml, trajectory.write_yaml),
+    Format("C3D model angles (Plug-in Gait)", (".c3d",), c3d.read_gait, c3dwrite.write_gait),
+    Format("ROS JointTrajectory, JSON", (".json",), trajectory.read_json, trajectory.write_json),
 )
 
 FORMATS = MappingProxyType({suffix: entry for entry in _ALL for suffix in entry.suffixes})

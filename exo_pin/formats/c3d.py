@@ -25,6 +25,7 @@ from exo_pin.formats.reading import Reading
 from exo_pin.formats.table import Array
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.rigid import nearest_pose
+from exo_pin.signals import longest_run
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 NEWTON_METRES = {"Nmm": 1e-3, "Nm": 1.0, "N.m": 1.0, "N.mm": 1e-3}
@@ -109,7 +110,7 @@ def model_angles(path: Path, trial: Markers) -> Gait:
         raise FormatError(path, f"no model angles {', '.join(gone)}; its markers need inverse kinematics")
     columns = {joint: angle_of(column) for column, joint in PIG.mapping.items()}
     q = np.column_stack([_channel(trial, *columns[joint]) for joint in JOINTS])
-    start, stop = _longest((np.isfinite(q) & (q != 0)).any(axis=1) & np.isfinite(q).all(axis=1))
+    start, stop = longest_run((np.isfinite(q) & (q != 0)).any(axis=1) & np.isfinite(q).all(axis=1))
     if stop - start < 2:
         raise FormatError(path, "the model angles are empty")
     time, source = trial.time[start:stop], f"{path.name}, Plug-in Gait model angles"
@@ -144,13 +145,6 @@ def _pelvis(trial: Markers) -> Array | None:
         return None
     T[:, :3, :3] /= np.maximum(np.linalg.norm(T[:, :3, :3], axis=1, keepdims=True), 1e-12)
     return nearest_pose(T)
-
-
-def _longest(good: NDArray[np.bool_]) -> tuple[int, int]:
-    """Start and stop of the longest run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
-    runs = edges.reshape(-1, 2)
-    return tuple(runs[np.diff(runs, axis=1)[:, 0].argmax()].tolist()) if len(runs) else (0, 0)
 
 
 def _turned(path: Path, data: bytes, layout: c3dheader.Layout) -> dict[str, NDArray[Any]]:

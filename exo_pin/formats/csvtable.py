@@ -1,4 +1,4 @@
-"""CSV files of our own: comment lines, one header line with exact names, numbers separated by commas."""
+"""Tables of our own: comment lines, one header line with exact names, numbers between commas or tabs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from exo_pin.formats.table import Array, Table, missing, parse, rows_of_text
 
 
 def read_csv(
-    path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]]
+    path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]], *, separator: str = ","
 ) -> tuple[Table, tuple[str, ...], list[Note]]:
     """Read a table whose columns are known by name; their order is free.
 
@@ -21,6 +21,7 @@ def read_csv(
         path: The file.
         required: Columns that must be there.
         groups: Columns that come all together or not at all, by the group's name.
+        separator: A comma or a tab.
 
     Returns:
         The table, the groups that are there, and the comment lines above the header.
@@ -34,21 +35,24 @@ def read_csv(
         raise FormatError(
             path, f"empty; expected a header line {','.join(required[:3])},... and rows of numbers"
         )
-    names = [name.strip() for name in lines[start].split(",")]
-    _check_separator(path, lines[start], required, start + 1)
+    names = [name.strip() for name in lines[start].split(separator)]
+    if separator == ",":
+        _check_separator(path, lines[start], required, start + 1)
     _check_known(path, names, [*required, *(name for group in groups.values() for name in group)], start + 1)
     missing(path, names, required, line=start + 1)
     present = tuple(group for group, columns in groups.items() if set(columns) & set(names))
     for group in present:
         missing(path, names, groups[group], line=start + 1)
-    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=",")
+    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=separator)
     return table, present, split(lines[:start])
 
 
-def write_csv(path: Path, title: str, notes: Notes, names: Iterable[str], values: Array) -> None:
+def write_csv(
+    path: Path, title: str, notes: Notes, names: Iterable[str], values: Array, *, separator: str = ","
+) -> None:
     """Write a title for people, the notes, the header and the rows."""
-    rows = rows_of_text(values, ",")
-    write_text(path, "\n".join([f"# {title}", *to_lines(notes), ",".join(names), *rows, ""]))
+    rows = rows_of_text(values, separator)
+    write_text(path, "\n".join([f"# {title}", *to_lines(notes), separator.join(names), *rows, ""]))
 
 
 def _check_separator(path: Path, header: str, required: Sequence[str], line: int) -> None:

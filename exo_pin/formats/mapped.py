@@ -18,6 +18,7 @@ from exo_pin.formats.presets import preset
 from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.table import Array, Table, parse
 from exo_pin.gait import Gait
+from exo_pin.signals import GAP, filled, longest_run
 
 TIME = "time"
 TIMES = ("time_s", "time", "t", "time [s]", "time (s)", "time[s]", "time(s)")
@@ -44,11 +45,12 @@ def read_gait(path: Path, reading: Reading) -> Gait:
     Commas, semicolons and tabs separate; where it is not the comma, decimals may have one. The header is the
     first line that holds the mapped columns; a line of units below it is skipped. A key of the mapping may
     start with a minus (the sign is turned) or be a number (the joint is held there); its value may be several
-    joints with commas between.
+    joints with commas between. Gaps (empty cells, NaN) up to 0.2 s are filled; of longer ones the longest
+    stretch between is read, and the source says so.
 
     Raises:
-        FormatError: With file, line and reason: columns or joints that are missing, units that nobody says,
-            gaps.
+        FormatError: With file, line and reason: columns or joints that are missing, units that nobody says, a
+            row without a time, nothing but gaps.
         UnknownNameError: The mapping names no joint of ours, or there is no such preset.
     """
     wanted = _wanted(reading)
@@ -61,8 +63,16 @@ def read_gait(path: Path, reading: Reading) -> Gait:
     table = _table(path, names, lines, start, separator, used)
     scale = TO_RADIANS[_units(path, reading.units, used[1:], start + 1)]
     q = np.column_stack([_angles(table, joints[joint], scale) for joint in JOINTS])
-    said = f", preset {reading.preset}" if reading.preset else ", as mapped"
-    return to_gait(path, table.times(time), q, None, Notes(source=f"{path.name}{said}"))
+    t = table.times(time)
+    whole = filled(t, q)
+    start, stop = longest_run(np.isfinite(whole.values).all(axis=1))
+    if stop - start < 2:
+        raise FormatError(path, f"no two rows in a row without gaps longer than {GAP:g} s")
+    said = [f"preset {reading.preset}" if reading.preset else "as mapped"]
+    said += [f"{whole.filled} angles in gaps up to {GAP:g} s filled"] if whole.filled else []
+    said += [f"rows {start + 1} to {stop} of {len(t)}, the rest has gaps"] if stop - start < len(t) else []
+    notes = Notes(source=f"{path.name}, {', '.join(said)}")
+    return to_gait(path, t[start:stop], whole.values[start:stop], None, notes)
 
 
 def _wanted(reading: Reading) -> dict[str, str]:
@@ -172,17 +182,17 @@ def _table(
             continue
         if len(cells) <= max(places):
             raise FormatError(path, f"{len(cells)} values, but the header has {len(names)}", line=number)
-        rows.append(_row(path, [cells[k] for k in places], used, separator, number))
-    return parse(path, used, rows, first=first + 1, delimiter=",")
+        if not cells[places[0]]:
+            raise FormatError(path, f"{used[0][:80]} is empty; every row needs a time", line=number)
+        rows.append(_row([cells[k] for k in places], separator))
+    return parse(path, used, rows, first=first + 1, delimiter=",", gaps=True)
 
 
-def _row(path: Path, cells: list[str], used: list[str], separator: str, line: int) -> str:
-    for name, cell in zip(used, cells, strict=True):
-        if not cell or cell.lower() == "nan":
-            raise FormatError(path, f"{name[:80]} has a gap; fill it first", line=line)
-    if separator == ",":
-        return ",".join(cells)
-    return ",".join(cell.replace(",", ".") for cell in cells)
+def _row(cells: Sequence[str], separator: str) -> str:
+    """Numbers with points, separated by commas; a gap is NaN."""
+    if separator != ",":
+        cells = [cell.replace(",", ".") for cell in cells]
+    return ",".join(cell or "nan" for cell in cells)
 
 
 def _no_numbers(cells: Sequence[str]) -> bool:
@@ -195,8 +205,9 @@ def _angles(table: Table, column: Column, scale: float) -> Array:
         np.full(n, column.constant) if column.constant is not None else table.columns([column.name])[:, 0]
     )
     unit = "degrees" if scale != 1 else "radians"
-    if np.abs(values * scale).max() > np.pi * (1 + 1e-12):
-        k = int(np.abs(values).argmax())
+    absurd = np.flatnonzero(np.abs(values * scale) > np.pi * (1 + 1e-12))  # False where there is a gap
+    if len(absurd):
+        k = absurd[np.abs(values[absurd]).argmax()]
         why = f"{column.name[:80]} is {values[k]:g}: more than half a turn; are these {unit}?"
         raise FormatError(table.path, why, line=table.lines[k])
     return np.clip(column.sign * values * scale, -np.pi, np.pi)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Named columns of finite numbers.
+    """Named columns of finite numbers (or NaN, where the reader allows gaps).
 
     Attributes:
         path: The file.
@@ -54,7 +54,7 @@ class Table:
         time = self.columns([name])[:, 0]
         if len(time) < 2:
             raise FormatError(self.path, "only one row of data; a walk has at least 2", line=self.lines[0])
-        late = np.flatnonzero(np.diff(time) <= 0)
+        late = np.flatnonzero(~(np.diff(time) > 0))  # NaN is not later either
         if late.size:
             why = f"{name} does not increase: {time[late[0] + 1]:.12g} after {time[late[0]]:.12g}"
             raise FormatError(
@@ -64,7 +64,13 @@ class Table:
 
 
 def parse(
-    path: Path, names: Sequence[str], lines: Sequence[str], *, first: int, delimiter: str | None
+    path: Path,
+    names: Sequence[str],
+    lines: Sequence[str],
+    *,
+    first: int,
+    delimiter: str | None,
+    gaps: bool = False,
 ) -> Table:
     """Read the rows below a header.
 
@@ -74,9 +80,11 @@ def parse(
         lines: The rows; empty ones are skipped.
         first: Line number of `lines[0]`, counted from 1.
         delimiter: What separates the cells; None is any blank.
+        gaps: Whether a cell may be NaN.
 
     Raises:
-        FormatError: For duplicate names, no rows, ragged rows, cells that are no number, NaN and infinity.
+        FormatError: For duplicate names, no rows, ragged rows, cells that are no number, infinity and (but
+            for `gaps`) NaN.
     """
     name, times = Counter(names).most_common(1)[0]
     if times > 1:
@@ -91,7 +99,8 @@ def parse(
     if values.shape != (len(rows), len(names)):
         raise _culprit(path, names, rows, delimiter, "the rows do not fit the header")
     table = Table(path, tuple(names), values, [number for number, _ in rows])
-    table.refuse(~np.isfinite(values), table.names, "expected a finite number")
+    bad = np.isinf(values) if gaps else ~np.isfinite(values)
+    table.refuse(bad, table.names, "expected a finite number")
     return table
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.files import read_text, write_text
+from exo_pin.formats import pelvisnotes
 from exo_pin.formats.notes import Note, Notes, read, split, to_gait, to_lines
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.safeyaml import load_yaml
@@ -19,7 +20,7 @@ from exo_pin.gait import Gait
 
 REMARK = "# JointTrajectory [rad, rad/s, rad/s^2, s]; positive is what the joint's name says."
 START = "start"
-"""Note that keeps the first time of a walk whose trajectory, as any, starts at 0."""
+"""Note that keeps the first time of a walk whose trajectory, as any, starts at 0; others keep the pelvis."""
 
 NOTES = "exo_pin"
 """Key of a JSON file that keeps the notes, which YAML has in comments."""
@@ -91,7 +92,8 @@ def write_json(gait: Gait, path: Path) -> None:
 
 def _notes(gait: Gait) -> list[str]:
     start = float(gait.time[0])
-    return [*to_lines(Notes(gait.events, gait.periodic, gait.source)), f"# {START}: {start!r}"]
+    notes = to_lines(Notes(gait.events, gait.periodic, gait.source))
+    return [*notes, f"# {START}: {start!r}", *pelvisnotes.to_lines(gait.base)]
 
 
 def _from_start(gait: Gait) -> list[float]:
@@ -142,7 +144,8 @@ def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> G
         time += float(start[0].value) if start else 0.0
     except ValueError:
         raise FormatError(path, f"start is {start[0].value[:40]!r}, expected seconds") from None
-    return to_gait(path, time, q[:, columns], None, read(path, notes))
+    base = pelvisnotes.read_base(path, notes, len(time))
+    return to_gait(path, time, q[:, columns], base, read(path, notes))
 
 
 def _columns(path: Path, names: object, reading: Reading) -> list[int]:

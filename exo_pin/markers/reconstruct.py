@@ -173,11 +173,10 @@ def _seen(places: Placement, paths: Mapping[str, Array]) -> tuple[int, int]:
     for link, names in places.names.items():
         count = sum(~np.isnan(paths[name][:, 0]) for name in names)
         good &= count >= (3 if link == "pelvis" else 2 if link.endswith("sole_plate") else 1)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int))).reshape(-1, 2)
-    if not len(edges) or np.diff(edges, axis=1).max() < 2:
+    start, stop = signals.longest_run(good)
+    if stop - start < 2:
         raise GaitError("no two frames in a row show the markers of every segment")
-    start, stop = edges[np.diff(edges, axis=1)[:, 0].argmax()]
-    return int(start), int(stop)
+    return start, stop
 
 
 def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen: MarkerSet) -> Gait:
