@@ -14,7 +14,7 @@ _EXAMPLES = """examples:
   exo-pin film walk.mot --camera left --size 1280x720 -o walk.webm
   exo-pin film fast --speed 0.5 --curves -o walk.mp4
 
-GIF and WebM need Chromium (e.g. apt install chromium), MP4 and WebM with curves ffmpeg besides."""
+GIF and WebM need Chromium (e.g. apt install chromium), MP4 ffmpeg besides."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

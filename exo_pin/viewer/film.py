@@ -36,13 +36,19 @@ header, #side, #controls, #cameras, #show, #notice { display: none !important }
 """
 _RECORDER = """
 (() => {
-  const canvas = exo.stage.renderer.domElement, parts = [];
-  const stream = canvas.captureStream(0), recorder = new MediaRecorder(stream, { mimeType: "video/webm",
-    videoBitsPerSecond: 12e6 });
+  const canvas = document.createElement("canvas"), parts = [];
+  Object.assign(canvas, { width: innerWidth, height: innerHeight });
+  const pen = canvas.getContext("2d"), stream = canvas.captureStream(0);
+  const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 12e6 });
   recorder.ondataavailable = (event) => parts.push(event.data);
   recorder.start();
   window.film = {
-    frame: () => stream.getVideoTracks()[0].requestFrame(),
+    frame: async (png) => {
+      const picture = Object.assign(new Image(), { src: `data:image/png;base64,${png}` });
+      await picture.decode();
+      pen.drawImage(picture, 0, 0, canvas.width, canvas.height);
+      stream.getVideoTracks()[0].requestFrame();
+    },
     end: async () => {
       const ended = new Promise((done) => (recorder.onstop = done));
       recorder.stop();
@@ -121,9 +127,8 @@ def film(
     kind = path.suffix.lower()
     if kind not in FILMS:
         raise DescriptionError(f"{path}: a film ends in {', '.join(FILMS)}")
-    if (kind == ".mp4" or (kind == ".webm" and curves)) and not shutil.which("ffmpeg"):
-        wanted = "an MP4" if kind == ".mp4" else "a WebM with curves"
-        raise ExoPinError(f"{wanted} needs ffmpeg (e.g. `apt install ffmpeg`); .gif does without")
+    if kind == ".mp4" and not shutil.which("ffmpeg"):
+        raise ExoPinError("an MP4 needs ffmpeg (e.g. `apt install ffmpeg`); .webm and .gif do without")
     if not 1 <= fps <= 60:
         raise DescriptionError(f"fps is {fps:g}; 1 .. 60 is accepted")
     count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
@@ -216,10 +221,9 @@ def _recorded(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
     slot = max(_SHORTEST_SLOT, 2 * (time.monotonic() - start))
     browser.evaluate(_RECORDER)
     begin = time.monotonic()
-    for k, phase in enumerate(phases):
-        _show(browser, phase)
+    for k, shot in enumerate(_shots(browser, phases)):
         time.sleep(max(0.0, begin + k * slot - time.monotonic()))
-        browser.evaluate("film.frame()")
+        browser.evaluate(f"film.frame('{base64.b64encode(shot).decode()}')")
     time.sleep(_LONGEST_DELAY)
     data = base64.b64decode(browser.evaluate("film.end()"))
     if data.count(_MILLISECONDS, 0, 4096) != 1:

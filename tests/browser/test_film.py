@@ -58,18 +58,21 @@ def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
     assert gif.info["loop"] == 0
 
 
-def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, browser, monkeypatch):
+@pytest.mark.parametrize("curves", [False, True])
+def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, browser, monkeypatch, curves):
     path = chromium.find()
     monkeypatch.setattr(film.shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
     monkeypatch.setenv("EXO_PIN_CHROMIUM", path)
-    data = film.film(scene, tmp_path / "walk.webm", **SMALL, fps=5)
+    data = film.film(scene, tmp_path / "walk.webm", **SMALL, fps=5, curves=curves)
     assert data.startswith(bytes.fromhex("1a45dfa3"))
     source = base64.b64encode(data).decode()
     browser.open("about:blank", until="true")
-    length = browser.evaluate(
+    length, *size = browser.evaluate(
         "new Promise((done) => { const v = document.createElement('video');"
-        f"v.onloadedmetadata = () => done(v.duration); v.src = 'data:video/webm;base64,{source}' }})"
+        "v.onloadedmetadata = () => done([v.duration, v.videoWidth, v.videoHeight]);"
+        f"v.src = 'data:video/webm;base64,{source}' }})"
     )
+    assert tuple(size) == SMALL["size"]
     assert length == pytest.approx(scene.facts.duration, rel=0.5)  # the last frame's length is the recorder's
 
 
