@@ -1,7 +1,7 @@
 """Pictures and films: a headless browser shows the offline page moment by moment.
 
 PNG and GIF need Chromium alone; MP4 needs ffmpeg besides; WebM takes ffmpeg where it is found and else the
-browser's own recorder.
+browser's own recorder. The handles of the feet are left out: nobody can take them in a picture.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ QUALITIES = ("high", "low")
 SIDES = (16, 8192)
 """Smallest and largest side of a picture [px]."""
 
+_NO_HANDS = "#grips { display: none !important }"
 _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
 #app { display: block !important } #view { position: fixed !important; inset: 0 }
@@ -152,11 +153,10 @@ def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool, qualit
         browser.open(f"{page.as_uri()}#quality={quality}")
         if not browser.evaluate("exo.stage !== null"):
             raise ExoPinError("this Chromium shows no 3-D pictures (WebGL is off or missing)")
-        if not curves:
-            browser.evaluate(
-                f"document.head.append(Object.assign(document.createElement('style'), "
-                f"{{ textContent: `{_ALONE}` }}))"
-            )
+        browser.evaluate(
+            f"document.head.append(Object.assign(document.createElement('style'), "
+            f"{{ textContent: `{_NO_HANDS if curves else _NO_HANDS + _ALONE}` }}))"
+        )
         browser.evaluate("exo.clock.play(false)")
         browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         browser.evaluate(f"exo.look('{camera}')")
