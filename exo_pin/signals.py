@@ -135,11 +135,11 @@ def longest_run(good: ArrayLike) -> tuple[int, int]:
 
 
 def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = STANDS_OUT, least: float = 0.0) -> Array:
-    """How far samples stand out of their surroundings: 0 where they do not, and at the two samples of each end.
+    """How far samples stand out of their surroundings: 0 where they do not, and at two samples of each end.
 
-    Each sample is compared with the cubic through its two neighbours on either side. It stands out if it is off
-    by `factor` times what is usual for the curve (1.4826 times the median, a robust standard deviation), by
-    `least`, and by more than the samples around it.
+    Each sample is compared with the cubic through its two neighbours on either side. It stands out if it is
+    off by `factor` times what is usual for the curve (1.4826 times the median, a robust standard deviation),
+    by `least`, and by more than the samples around it.
 
     Args:
         time: `(n,)` increasing [s].

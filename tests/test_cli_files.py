@@ -100,6 +100,38 @@ def test_standing_has_no_cycles(capsys, tmp_path):
     assert "cycles: no gait cycles found" in out
 
 
+def test_outliers_are_reported_with_joint_time_and_size(capsys, tmp_path, recording):
+    for command in ("info", "cycles"):
+        assert "outlier" not in run(capsys, command, recording)[1]
+    walk = load_gait(recording)
+    q, base = walk.q.copy(), walk.base.copy()
+    q[140, JOINTS.index("right_knee_flexion")] += np.radians(7)
+    base[90, 2, 3] -= 0.05
+    path = tmp_path / "odd.csv"
+    save_gait(Gait(walk.time, q, base=base), path)
+    for command in ("info", "cycles"):
+        code, out, _ = run(capsys, command, path)
+        assert code == 0
+        assert f"outlier: right_knee_flexion at {walk.time[140]:.3f} s is +7.0 deg off its neighbours" in out
+        assert f"outlier: pelvis_z at {walk.time[90]:.3f} s is -50.0 mm off its neighbours" in out
+        code, out, _ = run(capsys, command, path, "--json")
+        found = {x["curve"]: x for x in json.loads(out)["outliers"]}
+        assert set(found) == {"right_knee_flexion", "pelvis_z"}
+        assert found["right_knee_flexion"]["off"] == pytest.approx(7, abs=0.1)
+
+
+def test_cycles_names_the_publication_of_every_range(capsys, recording):
+    code, out, _ = run(capsys, "cycles", recording, "--json")
+    facts = json.loads(out)
+    for name, number in facts["spatiotemporal"].items():
+        assert (number["usual"] is None) == (number["normal"] is None), name
+        if number["usual"]:
+            assert number["usual"]["source"] in facts["sources"]
+    text = run(capsys, "cycles", recording)[1]
+    assert "Bohannon, Andrews, Physiotherapy 97 (2011)" in text
+    assert "no published range was checked" in text
+
+
 def test_edit_adjusts_in_order_and_says_so(capsys, tmp_path):
     path = tmp_path / "new.csv"
     words = ["--slower", 2, "--stride", 0.9, "--amplitude", "ankle_inversion=0.5", "--mirror", "--cutoff", 12]

@@ -7,7 +7,7 @@ import dataclasses
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import SIDES
-from exo_pin.cli import options, show
+from exo_pin.cli import options, outliers, show
 from exo_pin.errors import GaitError
 
 if TYPE_CHECKING:
@@ -47,12 +47,13 @@ def run(args: argparse.Namespace) -> int:
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
+    odd = outliers.facts(gait)  # before the filter spreads them
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     if not gait.events:
         gait = dataclasses.replace(gait, events=events(robot, gait))
     cut = cycles(gait, args.side or _side(gait))
-    found = facts(robot, gait)
+    found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
     if args.json:
         show.as_json(found)
     else:
@@ -142,6 +143,7 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
     print_left_out(found)
+    outliers.show(found["outliers"])
 
 
 def _write(path: str, cut: Cycles, source: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from exo_pin.cli import cycles, options, show
+from exo_pin.cli import cycles, options, outliers, show
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     print(f"source: {facts['source'] or 'not stated'}\n{moves}; events: {len(facts['events']) or 'none'}")
     for event in facts["events"]:
         print(f"  {event['time_s']:.3f} s  {event['side']} {event['kind']}  ({event['source']})")
-    if facts["events_note"]:
+    if facts["events_note"] and facts["no_cycles"] not in facts["events_note"]:
         print(f"  {facts['events_note']}")
     _print_walk(facts)
     return 0
@@ -60,6 +60,7 @@ def _print_walk(facts: dict[str, Any]) -> None:
     else:
         print(f"cycles: {facts['no_cycles']}")
     cycles.print_left_out(facts)
+    outliers.show(facts["outliers"])
     print("plausible" if not facts["doubts"] else "doubtful: " + "; ".join(facts["doubts"]))
 
 
@@ -94,6 +95,7 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
         ],
         "events_note": note,
+        "outliers": outliers.facts(gait),
         "doubts": list(doubts(gait)),
         **cycles.facts(robot, gait),
     }

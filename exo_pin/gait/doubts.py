@@ -71,4 +71,6 @@ def _swing(q: Array) -> str:
         bent = knee >= np.percentile(knee, 85)
         rate = np.gradient(hip)
         against.append(float(rate[bent].mean()) < 0 and float((rate[bent] < 0).mean()) > 0.8)
-    return "both hips extend while the knee is bent most (swing): sign of the hip?" if all(against) else ""
+    if not all(against):
+        return ""
+    return "both hips extend while the knee is bent most (swing): sign of the hip, or a walk backwards?"

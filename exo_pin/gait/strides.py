@@ -89,21 +89,21 @@ def unrolled(gait: Gait) -> Gait:
 
 def _why(gait: Gait, span: Stride, usual: float, rest: Array) -> str:
     """Why the span is no stride."""
+    turn = abs(turned(gait, span.start, span.end))
+    if turn > TURNING:
+        return (
+            f"the pelvis turns by {np.degrees(turn):.0f} deg in a stride, more than "
+            f"{np.degrees(TURNING):.0f}: turning, not walking straight on"
+        )
     window = REST * usual / 2
     if ((rest > span.start + window) & (rest < span.end - window)).any():
         return "stands still in it"
     if span.duration > LONGEST * usual:
         return f"lasts {span.duration:.2f} s, others {usual:.2f} s: a pause, or a missed heel strike"
-    turned = abs(_turned(gait, span.start, span.end))
-    if turned > TURNING:
-        return (
-            f"the pelvis turns by {np.degrees(turned):.0f} deg in a stride, more than "
-            f"{np.degrees(TURNING):.0f}: turning, not walking straight on"
-        )
     return ""
 
 
-def _turned(gait: Gait, start: float, end: float) -> float:
+def turned(gait: Gait, start: float, end: float) -> float:
     """How far the pelvis's level heading turns between two times [rad]."""
     if gait.base is None:
         return 0.0

@@ -13,7 +13,7 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.bouts import walking
 from exo_pin.gait.steps import Feet
-from exo_pin.gait.strides import strides, unrolled
+from exo_pin.gait.strides import strides, turned, unrolled
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
@@ -22,6 +22,9 @@ Array = npt.NDArray[np.float64]
 TOUCH = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
+
+TURNED = np.pi / 2
+"""A pelvis that turns by more [rad] in a motion that is no walk is worth mentioning."""
 
 LEVEL = 1e-9
 """A heading shorter than this has no direction: the pelvis lies on its face or back."""
@@ -90,7 +93,12 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         along = soles - T[:, None, None, 0, :3, 3]
         soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
     feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
-    found = walking(feet, periodic=gait.periodic)
+    try:
+        found = walking(feet, periodic=gait.periodic)
+    except GaitError as error:
+        turn = abs(turned(gait, gait.time[0], gait.time[-1]))
+        hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > TURNED else ""
+        raise GaitError(f"{error}{hint}") from error
     _check_strides(dataclasses.replace(gait, events=found))
     return found
 
