@@ -102,7 +102,7 @@ def test_standing_has_no_cycles(capsys, tmp_path):
 
 def test_outliers_are_reported_with_joint_time_and_size(capsys, tmp_path, recording):
     for command in ("info", "cycles"):
-        assert "outlier" not in run(capsys, command, recording)[1]
+        assert "outlier: " not in run(capsys, command, recording)[1]
     walk = load_gait(recording)
     q, base = walk.q.copy(), walk.base.copy()
     q[140, JOINTS.index("right_knee_flexion")] += np.radians(7)
@@ -121,7 +121,7 @@ def test_outliers_are_reported_with_joint_time_and_size(capsys, tmp_path, record
 
 
 def test_cycles_names_the_publication_of_every_range(capsys, recording):
-    code, out, _ = run(capsys, "cycles", recording, "--json")
+    out = run(capsys, "cycles", recording, "--json")[1]
     facts = json.loads(out)
     for name, number in facts["spatiotemporal"].items():
         assert (number["usual"] is None) == (number["normal"] is None), name
