@@ -8,11 +8,12 @@ import io
 import math
 import re
 from collections.abc import Mapping
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
 
-from exo_pin import devices
+from exo_pin import cache, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Part, link_inertias
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
@@ -99,10 +100,26 @@ def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:
     return _expand(tuple(values.items()), name)
 
 
-@functools.lru_cache(
-    maxsize=64
-)  # xacro takes about 0.2 s, and a session asks for the same body again and again
+@functools.lru_cache(maxsize=64)  # a session asks for the same body again and again
 def _expand(values: tuple[tuple[str, str], ...], name: str) -> str:
+    """The URDF, from the run before if nothing that it follows from has changed: xacro takes 0.2 s."""
+    known = cache.key((*_makers(), name, *(part for pair in values for part in pair)))
+    kept = cache.recall("urdf", known)
+    if kept is not None:
+        return kept.decode()
+    text = _by_xacro(values, name)
+    cache.keep("urdf", known, text.encode())
+    return text
+
+
+@functools.cache
+def _makers() -> tuple[str | bytes, ...]:
+    """What turns arguments into a URDF: xacro, its sources, and this module."""
+    files = (Path(__file__), *sorted(sources().glob("*.xacro")))
+    return metadata.version("xacro"), *(file.read_bytes() for file in files)
+
+
+def _by_xacro(values: tuple[tuple[str, str], ...], name: str) -> str:
     import xacro  # 30 ms that only a description needs
 
     noise = io.StringIO()  # xacro reports its errors on stderr before it raises

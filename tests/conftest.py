@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,12 @@ SEED = 20260101
 # Examples are no timed tests: on a busy machine one of them may take its time.
 settings.register_profile("exo_pin", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("exo_pin")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Tests keep nothing in the user's cache, and find nothing there."""
+    os.environ["EXO_PIN_CACHE"] = str(tmp_path_factory.mktemp("cache"))
 
 
 @pytest.fixture

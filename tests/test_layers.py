@@ -7,8 +7,9 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parents[1] / "exo_pin"
 FLOORS = [
-    {"errors"},  # the ground floor has three steps
+    {"errors"},  # the ground floor has four steps
     {"files"},
+    {"cache"},
     {"anatomy"},
     {"devices"},
     {"description", "dh", "gait", "signals"},
@@ -21,7 +22,7 @@ FLOORS = [
     {"cli"},
     {"__init__", "__main__"},
 ]
-GROUND = {"errors", "files", "anatomy", "devices"}
+GROUND = {"errors", "files", "cache", "anatomy", "devices"}
 FLOOR = {room: k for k, rooms in enumerate(FLOORS) for room in rooms}
 ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "xacro": {"description"},

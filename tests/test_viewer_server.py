@@ -1,11 +1,14 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import http.client
 import json
 import socket
 import threading
 import time
+import tracemalloc
+from contextlib import asynccontextmanager
 
 import numpy as np
 import pytest
@@ -19,6 +22,9 @@ from exo_pin.robot import load_robot
 from exo_pin.viewer.bundle import bundle
 
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
+FLOOD = 400  # wishes at once
+WARM_UP, MINUTE = 300, 3600  # poses; a minute at 60 a second
+GROWTH = 20_000  # [bytes]: a pose is 76 bytes long; keeping one byte in ten of each would show
 POSE_COST = 0.15e-3  # [s] of Python per live pose
 STATE = {"type": "state", "time": 0.5, "playing": False, "speed": 0.5, "loop": True, "view": "left"}
 
@@ -113,12 +119,96 @@ def test_nothing_else_is_there(server, path):
         '{"type": "state", "time": NaN, "speed": 1, "view": "iso"}',
         '{"type": "state", "time": 0, "speed": 1e9, "view": "iso"}',
         '{"type": "state", "time": "x", "speed": 1, "view": "iso"}',
+        '{"type": "state", "time": 1' + "0" * 400 + ', "speed": 1, "view": "iso"}',
+        '{"type": "state", "time": 0, "speed": 1, "view": {"a": 1}}',
+        "[" * 60_000,
+        '{"type": ["state"]}',
+        '{"type": "reach"}',
+        '{"type": "reach", "id": 1, "feet": {"left_foot": [NaN, 0, 0, 0, 0, 0, 1]}, "q": []}',
+        '{"type": "reach", "id": 1, "feet": {"left_foot": [1e300, 0, 0, 0, 0, 0, 1]}, "q": []}',
     ],
 )
 def test_forged_messages_are_ignored_and_the_connection_lives_on(server, forged, capfd):
     talk(server, forged)
     assert server.state == {name: value for name, value in STATE.items() if name != "type"}
     assert capfd.readouterr().err == ""
+
+
+@asynccontextmanager
+async def connected(server):
+    """A page's connection that has received the scene."""
+    page = await websocket_connect(f"ws://127.0.0.1:{server.port}/live")
+    await asyncio.wait_for(page.read_message(), PATIENCE)
+    yield page
+    page.close()
+    while await asyncio.wait_for(page.read_message(), PATIENCE) is not None:
+        pass
+
+
+def wish(scene, number, height):
+    q = [float(value) for value in scene.arrays["q"][0]]
+    feet = {"left_foot": [0.0, 0.1, height, 0.0, 0.0, 0.0, 1.0]}
+    return json.dumps({"type": "reach", "id": number, "feet": feet, "q": q})
+
+
+def test_of_a_flood_of_wishes_the_latest_is_answered_and_no_queue_grows(server, scene):
+    async def run():
+        answers = []
+        async with connected(server) as page:
+            for number in range(FLOOD):
+                page.write_message(wish(scene, number, -0.65 - 0.1 * number / FLOOD))
+            while not answers or answers[-1]["id"] != FLOOD - 1:
+                answers.append(json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)))
+        return answers
+
+    answers = asyncio.run(run())
+    numbers = [answer["id"] for answer in answers]
+    assert numbers == sorted(numbers)
+    assert len(numbers) < FLOOD / 2
+    assert answers[-1]["misses"] == {"left_foot": [0, 0]}
+
+
+def test_two_pages_get_each_their_own_answers(server, scene):
+    async def run():
+        async with connected(server) as one, connected(server) as other:
+            await one.write_message(wish(scene, 10, -0.7))
+            await other.write_message(wish(scene, 11, -0.8))
+            return [
+                json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)) for page in (one, other)
+            ]
+
+    assert [answer["id"] for answer in asyncio.run(run())] == [10, 11]
+
+
+def test_a_page_that_leaves_before_its_answer_harms_nobody(server, scene, capfd):
+    async def run():
+        async with connected(server) as page:
+            await page.write_message(wish(scene, 1, -0.7))
+
+    asyncio.run(run())
+    talk(server)
+    assert capfd.readouterr().err == ""
+
+
+def test_sixty_seconds_of_poses_leave_no_memory_behind(server):
+    async def run():
+        async with connected(server) as page:
+
+            async def play(count):
+                for k in range(count):
+                    server.pose(np.full(12, k / count), [0, 0, 1, 0, 0, 0, 1])
+                    await asyncio.wait_for(page.read_message(), PATIENCE)
+                gc.collect()
+                return tracemalloc.get_traced_memory()[0]
+
+            before = await play(WARM_UP)
+            return await play(MINUTE) - before
+
+    tracemalloc.start()
+    try:
+        assert asyncio.run(run()) < GROWTH
+    finally:
+        tracemalloc.stop()
 
 
 def test_a_new_page_resumes_where_the_last_one_was(server):

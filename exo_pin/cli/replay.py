@@ -6,13 +6,12 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import walk
+from exo_pin.cli import recent, walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
 
 if TYPE_CHECKING:
-    from exo_pin.anatomy import Body
-    from exo_pin.gait import Gait
+    from exo_pin.viewer import Server
 
 _EXAMPLES = """examples:
   exo-pin replay                          the normal walk at free speed, in the browser
@@ -46,39 +45,50 @@ def run(args: argparse.Namespace) -> int:
     """Solve, print the residuals, show."""
     if not 0 <= args.port <= 65535:
         raise DescriptionError(f"--port is {args.port}; 0 .. 65535 is accepted (0: any free one)")
-    body, gait = walk.read(args)
     if args.html is None:
-        return _serve(args, body, gait)
+        return _serve(args)
     from exo_pin import viewer
 
-    text = viewer.html(walk.scene(args, body, gait))
+    text = viewer.html(walk.scene(args, *walk.read(args)))
     write_text(args.html, text)
     print(f"{args.html}: {len(text.encode()) / 1e6:.1f} MB, opens in any browser without a network")
     return 0
 
 
-def _serve(args: argparse.Namespace, body: Body, gait: Gait) -> int:
+def _serve(args: argparse.Namespace) -> int:
     """Block until Ctrl-C or SIGTERM, then leave nothing behind."""
     import signal
     import threading
 
     from exo_pin import viewer
 
-    done = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: done.set())
+    for number in (signal.SIGINT, signal.SIGTERM):  # both, also where a shell's `&` has switched Ctrl-C off
+        signal.signal(number, signal.default_int_handler)
+    last = recent.recall(args)
+    given = None if last else walk.read(args)  # what is wrong with the input is said before a browser opens
     opens = not args.no_open and _display()
-    with viewer.serve(host=args.host, port=args.port, open_browser=opens) as server:
-        server.show(walk.scene(args, body, gait))  # the browser opens while this is computed
-        if args.port and server.port != args.port:
-            print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
-        if not server.loopback:
-            print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
-        print(f"{server.url}   Ctrl-C ends it", flush=True)
-        if not _display():
-            print("no display here: open that address, or write a file with --html walk.html", flush=True)
-        done.wait()
+    try:
+        with viewer.serve(host=args.host, port=args.port, open_browser=opens) as server:
+            if last:
+                server.preview(last)
+            scene = walk.scene(args, *(given or walk.read(args)))  # the browser opens while this is computed
+            recent.keep(args, server.show(scene))
+            _say(args, server)
+            threading.Event().wait()
+    except KeyboardInterrupt:
+        pass
     return 0
+
+
+def _say(args: argparse.Namespace, server: Server) -> None:
+    """Where to look, and what to beware of."""
+    if args.port and server.port != args.port:
+        print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
+    if not server.loopback:
+        print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
+    print(f"{server.url}   Ctrl-C ends it", flush=True)
+    if not _display():
+        print("no display here: open that address, or write a file with --html walk.html", flush=True)
 
 
 def _display() -> bool:

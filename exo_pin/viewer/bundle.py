@@ -38,7 +38,7 @@ def bundle(scene: Scene) -> bytes:
     }
     facts["id"] = hashlib.sha256(json.dumps(facts).encode() + body).hexdigest()[:16]
     header = json.dumps(facts, allow_nan=False).encode()
-    return gzip.compress(_chunk(header) + body, compresslevel=9, mtime=0)
+    return gzip.compress(_chunk(header) + body, compresslevel=6, mtime=0)  # 9: 1 % smaller, 0.1 s slower
 
 
 def _chunk(data: bytes) -> bytes:

@@ -107,12 +107,17 @@ class Server:
         """Where a page last was: `time` [s], `playing`, `speed`, `loop`, `view`. A new page resumes there."""
         return None if self._state is None else dict(self._state)
 
-    def show(self, scene: Scene) -> None:
-        """Show another scene in all pages, now and later."""
+    def show(self, scene: Scene) -> bytes:
+        """Show another scene in all pages, now and later; returns it packed."""
         from exo_pin.viewer.bundle import bundle
 
         packed = bundle(scene)
-        self._loop.call_soon_threadsafe(self._install, scene, packed)
+        self._loop.call_soon_threadsafe(self._install, packed, scene)
+        return packed
+
+    def preview(self, packed: bytes) -> None:
+        """Show a scene that was packed in an earlier run, until `show` brings this run's."""
+        self._loop.call_soon_threadsafe(self._install, packed, None)
 
     def pose(self, q: npt.ArrayLike, base: npt.ArrayLike) -> None:
         """Show one pose in all pages that are open, and halt their playback.
@@ -192,11 +197,13 @@ class Server:
         for client in list(self._clients):
             client.send(message)
 
-    def _install(self, scene: Scene, packed: bytes) -> None:
-        self._bundle, self._title, self._state = packed, scene.title, None
+    def _install(self, packed: bytes, scene: Scene | None) -> None:
         self._scene, self._reach = scene, None
         self._wishes.clear()
-        self._send(BUNDLE + packed)
+        self._title = self._title if scene is None else scene.title
+        if packed != self._bundle:
+            self._bundle, self._state = packed, None
+            self._send(BUNDLE + packed)
 
     def _fulfil(self, client: Live) -> None:
         """Answer a page's latest wish."""

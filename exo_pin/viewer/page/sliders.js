@@ -8,6 +8,8 @@ class Sliders {
     this.holder = holder;
     this.onPose = onPose;
     this.rows = [];
+    this.q = [];
+    new ResizeObserver(() => this.show(this.q)).observe(holder); // they come into view
   }
 
   load(chain) {
@@ -43,8 +45,8 @@ class Sliders {
 
   /** Follows the walk while nobody poses by hand. */
   show(q) {
-    if (this.holder.hidden) return;
     this.q = [...q];
+    if (this.holder.hidden) return;
     for (const row of this.rows) {
       row.range.value = String(q[row.k]);
       this.tell(row);

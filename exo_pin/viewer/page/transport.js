@@ -4,7 +4,7 @@
 const BUNDLE = 0; // first byte of a binary message: a whole bundle follows
 const POSE = 1; // base (7) and joints, float32: show exactly this, now
 const RETRY = 1000; // [ms] between attempts to reach the server again
-const PATIENCE = 1000; // [ms] a question waits for its answer before the next is asked
+const PATIENCE = 1000; // [ms] a question waits for its answer
 
 class Embedded {
   constructor(text) {
@@ -66,26 +66,37 @@ class Live {
 
   /** Asks Python where the joints go for a wish, one question at a time; the page itself if nobody is there. */
   ask(wish, tell) {
-    if (this.asked && performance.now() - this.asked.sent < PATIENCE) {
-      this.next = { wish, tell };
-      return;
-    }
+    this.next = { wish, tell };
+    if (!this.asked) this.askNext();
+  }
+
+  askNext() {
+    const { wish, tell } = this.next;
+    this.next = null;
     if (!this.open) {
       tell(this.player.reach.answer(wish));
       return;
     }
-    this.asked = { id: this.count++, tell, sent: performance.now() };
+    const timer = setTimeout(() => this.giveUp(), PATIENCE);
+    this.asked = { id: this.count++, wish, tell, timer, sent: performance.now() };
     this.socket.send(JSON.stringify({ type: "reach", id: this.asked.id, ...wish }));
+  }
+
+  /** Nobody answers: the page finds out by itself. */
+  giveUp() {
+    const { wish, tell } = this.next || this.asked;
+    this.asked = this.next = null;
+    tell(this.player.reach.answer(wish));
   }
 
   reached(answer) {
     if (!this.asked || answer.id !== this.asked.id) return;
-    const { tell, sent } = this.asked;
-    const { next } = this;
-    this.asked = this.next = null;
+    const { tell, sent, timer } = this.asked;
+    clearTimeout(timer);
+    this.asked = null;
     this.latency = performance.now() - sent; // [ms]
     tell(answer);
-    if (next) this.ask(next.wish, next.tell);
+    if (this.next) this.askNext();
   }
 
   get open() {
