@@ -156,7 +156,7 @@ def test_of_a_flood_of_wishes_the_latest_is_answered_and_no_queue_grows(server, 
         answers = []
         async with connected(server) as page:
             for number in range(FLOOD):
-                page.write_message(wish(scene, number, -0.65 - 0.1 * number / FLOOD))
+                page.write_message(wish(scene, number, -0.85 - 0.05 * number / FLOOD))
             while not answers or answers[-1]["id"] != FLOOD - 1:
                 answers.append(json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)))
         return answers
@@ -171,7 +171,7 @@ def test_of_a_flood_of_wishes_the_latest_is_answered_and_no_queue_grows(server, 
 def test_two_pages_get_each_their_own_answers(server, scene):
     async def run():
         async with connected(server) as one, connected(server) as other:
-            await one.write_message(wish(scene, 10, -0.7))
+            await one.write_message(wish(scene, 10, -0.85))
             await other.write_message(wish(scene, 11, -0.8))
             return [
                 json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)) for page in (one, other)
@@ -183,7 +183,7 @@ def test_two_pages_get_each_their_own_answers(server, scene):
 def test_a_page_that_leaves_before_its_answer_harms_nobody(server, scene, capfd):
     async def run():
         async with connected(server) as page:
-            await page.write_message(wish(scene, 1, -0.7))
+            await page.write_message(wish(scene, 1, -0.85))
 
     asyncio.run(run())
     talk(server)

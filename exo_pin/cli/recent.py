@@ -10,6 +10,8 @@ from pathlib import Path
 from exo_pin import cache
 
 _KIND = "scene"
+_CODE = {".py", ".xacro", ".js", ".css", ".html"}
+"""Files of the package that an older picture may not fit."""
 _ELSEWHERE = {"port", "host", "no_open", "html", "command"}
 """Arguments that do not change the picture."""
 
@@ -27,7 +29,7 @@ def keep(args: argparse.Namespace, packed: bytes) -> None:
 def _name(args: argparse.Namespace) -> str:
     given = {name: value for name, value in sorted(vars(args).items()) if name not in _ELSEWHERE}
     files = (word for value in given.values() for word in (value if isinstance(value, list) else [value]))
-    code = (path for path in sorted(Path(cache.__file__).parent.rglob("*")) if path.suffix != ".pyc")
+    code = (path for path in sorted(Path(cache.__file__).parent.rglob("*")) if path.suffix in _CODE)
     return cache.key((repr(given), *_states(map(str, files)), *_states(map(str, code))))
 
 
