@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import markers as markers
     from exo_pin import report as report
     from exo_pin import retarget as retarget
+    from exo_pin import study as study
     from exo_pin import viewer as viewer
     from exo_pin.anatomy import FEET as FEET
     from exo_pin.anatomy import JOINTS as JOINTS
@@ -52,7 +53,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "
-    "markers report retarget viewer",
+    "markers report retarget study viewer",
     "exo_pin.anatomy": "Body FEET JOINTS",
     "exo_pin.errors": "ConvergenceError DescriptionError ExoPinError FormatError GaitError LimitError "
     "UnknownNameError",

@@ -6,11 +6,13 @@ import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from exo_pin.cli import options, show
+from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
+from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.compare import Comparison
@@ -20,10 +22,14 @@ _EXAMPLES = """examples:
   exo-pin compare walk.mot --devices lokomat lopes8 mine.toml
   exo-pin compare fast --pelvis device           each pelvis as its device holds it
   exo-pin compare --passive released             passive joints move as it suits the feet
+  exo-pin compare -o report.html                 one page: the motion behind every number, the five speeds
   exo-pin compare -o table.md                    also .csv and .json
 
 For every device: the best motion towards the recorded feet (least squares over the corners of the soles,
 within the joint limits), and the plain copy of its joints. docs/devices.md explains the columns."""
+
+_SAMPLES = 500
+"""Of a recording are enough to see which joints are worth their motor."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -46,7 +52,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="passive joints: held at zero (default), or moving freely",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write .md, .csv or .json as well")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write .html, .md, .csv or .json as well")
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="the .html page without the five speeds and the choices of joints",
+    )
     options.add_body(parser)
 
 
@@ -66,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print(comparison, Path(args.gait).name)
     if args.output:
-        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](comparison))
+        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](comparison, args))
     return 0
 
 
@@ -85,7 +96,7 @@ def _check_output(output: str | None) -> None:
         raise DescriptionError(f"{output}: {', '.join(_WRITERS)} are accepted")
 
 
-def _markdown(comparison: Comparison) -> str:
+def _markdown(comparison: Comparison, _: argparse.Namespace) -> str:
     from exo_pin.compare import PHASES, table
 
     parts = [
@@ -96,14 +107,49 @@ def _markdown(comparison: Comparison) -> str:
     return "\n".join(parts)
 
 
-def _csv(comparison: Comparison) -> str:
+def _csv(comparison: Comparison, _: argparse.Namespace) -> str:
     from exo_pin.compare import table
 
     return table.csv(table.COLUMNS, table.rows(comparison))
 
 
-def _json(comparison: Comparison) -> str:
+def _json(comparison: Comparison, _: argparse.Namespace) -> str:
     return json.dumps(comparison.facts(), indent=2) + "\n"
 
 
-_WRITERS: dict[str, Callable[[Comparison], str]] = {".md": _markdown, ".csv": _csv, ".json": _json}
+def _html(comparison: Comparison, args: argparse.Namespace) -> str:
+    from exo_pin import report
+
+    choices = {
+        "sign preset of the file": args.preset or "none given",
+        "measures of the body": args.body or "those given, else the defaults",
+    }
+    more = {} if args.quick else _more(comparison, args.gait)
+    name = Path(args.gait).name
+    return report.html(report.comparison(comparison, name=name, choices=choices, when=moment(), **more))
+
+
+def _more(comparison: Comparison, name: str) -> dict[str, Any]:
+    """The same devices at the five speeds, and the choices of joints."""
+    from exo_pin.compare import compare, worth
+
+    body, gait = comparison.walk.robot.body, comparison.walk.gait
+    assert body is not None  # compare made it
+    devices = [loss.device for loss in comparison.best]
+    speeds = {} if name in SPEEDS else {"this walk": comparison}
+    for speed in show.progress(SPEEDS, "speeds"):
+        walk = options.load(speed, body)
+        speeds[speed] = (
+            comparison if speed == name else compare(walk, devices, body, conditions=comparison.conditions)
+        )
+    with show.busy("choices of joints"):
+        found = worth(gait.resampled(_SAMPLES) if len(gait) > _SAMPLES else gait, body)
+    return {"speeds": speeds, "worth": found}
+
+
+_WRITERS: dict[str, Callable[[Comparison, argparse.Namespace], str]] = {
+    ".html": _html,
+    ".md": _markdown,
+    ".csv": _csv,
+    ".json": _json,
+}

@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Try all choices and print."""
-    from exo_pin.compare import worth
+    from exo_pin.compare import table, worth
 
     if args.output is not None and Path(args.output).suffix.lower() not in _WRITERS:
         raise DescriptionError(f"{args.output}: {', '.join(_WRITERS)} are accepted")
@@ -44,30 +44,12 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         show.as_json(study.facts())
     else:
-        show.table(f"Best choice for each number of motors: {Path(args.gait).name}", _FRONT, _front(study))
-        show.table("One movement locked, or added after the others", _SINGLE, _single(study))
+        name = Path(args.gait).name
+        show.table(f"Best choice for each number of motors: {name}", table.FRONT, table.front_rows(study))
+        show.table("One movement locked, or added after the others", table.SINGLE, table.single_rows(study))
     if args.output:
         write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](study))
     return 0
-
-
-_FRONT = ("motors", "sole rms mm", "driven, each leg")
-_SINGLE = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
-
-
-def _front(study: Worth) -> list[list[str]]:
-    return [
-        [str(motors), show.fixed(1e3 * loss), ", ".join(chosen) or "none"]
-        for motors, chosen, loss in study.pareto
-    ]
-
-
-def _single(study: Worth) -> list[list[str]]:
-    places = {movement: (k, left) for k, (movement, left) in enumerate(study.add_one_in, 1)}
-    return [
-        [m, show.fixed(1e3 * loss), f"{places[m][0]}.", show.fixed(1e3 * places[m][1])]
-        for m, loss in study.leave_one_out.items()
-    ]
 
 
 def _svg(study: Worth) -> str:
@@ -79,7 +61,8 @@ def _svg(study: Worth) -> str:
 def _markdown(study: Worth) -> str:
     from exo_pin.compare import table
 
-    return table.markdown(_FRONT, _front(study)) + "\n" + table.markdown(_SINGLE, _single(study))
+    front = table.markdown(table.FRONT, table.front_rows(study))
+    return front + "\n" + table.markdown(table.SINGLE, table.single_rows(study))
 
 
 def _csv(study: Worth) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exo_pin.compare.comparison import Comparison
+from exo_pin.compare.joints import Worth
 from exo_pin.compare.loss import Loss
 
 COLUMNS = (
@@ -22,6 +23,9 @@ COLUMNS = (
 )
 """Headings. Sole: of the soles' corners; foot: of the foot frames; copy: the sole in the plain copy."""
 
+FRONT = ("motors", "sole rms mm", "driven, each leg")
+SINGLE = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
+
 
 def rows(comparison: Comparison) -> list[list[str]]:
     """One row of text per device, least loss first."""
@@ -33,6 +37,23 @@ def phase_rows(comparison: Comparison) -> list[list[str]]:
     return [
         [loss.device.name, *(_fixed(1e3 * value) for value in loss.by_phase.values())]
         for loss in comparison.best
+    ]
+
+
+def front_rows(worth: Worth) -> list[list[str]]:
+    """The best choice of joints for each number of motors, as `FRONT` says."""
+    return [
+        [str(motors), _fixed(1e3 * loss), ", ".join(chosen) or "none"]
+        for motors, chosen, loss in worth.pareto
+    ]
+
+
+def single_rows(worth: Worth) -> list[list[str]]:
+    """One movement locked, or added after the others, as `SINGLE` says; the dearest first."""
+    places = {movement: (k, left) for k, (movement, left) in enumerate(worth.add_one_in, 1)}
+    return [
+        [m, _fixed(1e3 * loss), f"{places[m][0]}.", _fixed(1e3 * places[m][1])]
+        for m, loss in worth.leave_one_out.items()
     ]
 
 
@@ -58,7 +79,7 @@ def conditions(comparison: Comparison) -> str:
     }[granted.pelvis]
     return (
         f"{walk.gait.source or 'gait'}: {len(walk.gait)} samples, {walk.gait.duration:.2f} s; {who}{pelvis}; "
-        f"passive joints {granted.passive}; the default joint limits or the device's own are kept."
+        f"passive joints {granted.passive}; the default joint limits and speeds or the device's own are kept."
     )
 
 

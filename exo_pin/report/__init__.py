@@ -1,14 +1,27 @@
 """Figures and reports: documents as values, rendered as self-contained HTML or as Markdown.
 
 `walk(robot, gait)` is one walk for an engineer or clinician, `reproduction(robot, gait)` the paper's
-figures. Both are `Document`s: `html(document)` and `markdown(document)` make text of them.
+figures, `comparison(compared)` devices side by side, `study(rows)` many walks. All are `Document`s:
+`html(document)` and `markdown(document)` make text of them.
 """
 
 from exo_pin.report.blocks import Document, Drawing
+from exo_pin.report.comparison import comparison
 from exo_pin.report.markdown import markdown
 from exo_pin.report.page import html
 from exo_pin.report.reproduction import Rendered, reproduction
 from exo_pin.report.study import study
 from exo_pin.report.walk import About, walk
 
-__all__ = ["About", "Document", "Drawing", "Rendered", "html", "markdown", "reproduction", "study", "walk"]
+__all__ = [
+    "About",
+    "Document",
+    "Drawing",
+    "Rendered",
+    "comparison",
+    "html",
+    "markdown",
+    "reproduction",
+    "study",
+    "walk",
+]

@@ -76,7 +76,7 @@ def model_drawing(robot: Robot) -> Drawing:
 def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     """Ten poses of the first cycle from the side, axes in cm, and how they were placed."""
     rows = _ten(gait)
-    chains = {side: _chain(robot, gait, side)[rows] for side in SIDES}
+    chains = {side: chain(robot, gait, side)[rows] for side in SIDES}
     lowest = np.min([chain[:, 3:, 2].min(axis=1) for chain in chains.values()], axis=0)
     advance, how = _advance(robot, gait, rows)
     curves = []
@@ -128,7 +128,7 @@ def _advance(robot: Robot, gait: Gait, rows: npt.NDArray[np.int64]) -> tuple[Arr
     return np.asarray(speed * times), how
 
 
-def _chain(robot: Robot, gait: Gait, side: str) -> Array:
+def chain(robot: Robot, gait: Gait, side: str) -> Array:
     """Trunk top, hip, knee, ankle, heel, ball, ankle `(n, 7, 3)` in the world [m]."""
     names = [f"{side}_hip_flexion", f"{side}_knee_flexion", f"{side}_ankle_inversion"]
     names += [f"{side}_{part}_{edge}" for part in ("heel", "ball") for edge in ("medial", "lateral")]

@@ -1,0 +1,145 @@
+"""Sections of a comparison of devices: feet, steps, joints, centre of mass, other speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from exo_pin.anatomy import MOVEMENTS, SIDES
+from exo_pin.compare import PHASES, Comparison, Loss
+from exo_pin.devices import SLIDES, movement_of
+from exo_pin.report import devices as drawn
+from exo_pin.report.blocks import Block, Figure, Section, Table, Words
+from exo_pin.report.heat import heat
+
+
+def feet(compared: Comparison) -> Section:
+    """Errors of position and orientation: curves, rms and largest, by phase."""
+    rows = []
+    for loss in compared.best:
+        facts = loss.facts()
+        names = ("sole_error_mm", "position_error_mm", "rotation_error_deg")
+        rows.append(
+            [loss.device.name, *(_fixed(facts[name][how]) for name in names for how in ("rms", "max"))]
+        )
+    columns = (
+        "device",
+        "sole rms mm",
+        "sole max mm",
+        "foot rms mm",
+        "foot max mm",
+        "foot rms deg",
+        "foot max deg",
+    )
+    blocks: list[Block] = [
+        Figure(drawn.errors(compared), drawn.TOGETHER, columns=2),
+        Table(columns, rows, "Errors of the feet, both feet over the whole walk"),
+    ]
+    if compared.walk.gait.events:
+        cells = {
+            loss.device.name: [1e3 * value for value in loss.by_phase.values()] for loss in compared.best
+        }
+        phases = heat(
+            "phases", "Sole error by phase of the foot's cycle, rms [mm]", list(PHASES), cells, width=760
+        )
+        blocks.append(Figure((phases,), "Phases: Perry 1992, told by heel strikes and toe-offs.", columns=1))
+    return Section("Feet: position and orientation", tuple(blocks))
+
+
+def steps(compared: Comparison) -> Section:
+    """Step width and clearance, recorded and the device's."""
+    if not compared.walk.gait.events:
+        words = "The walk has no heel strikes and toe-offs, so its steps are unknown."
+        return Section("Step width and clearance", (Words(words),))
+    first = compared.best[0].facts()
+    recorded = [
+        _fixed(first[f"{name}_mm"] + first[f"{name}_lost_mm"]) for name in ("step_width", "clearance")
+    ]
+    rows = [["recorded", recorded[0], "", recorded[1], ""]]
+    for loss in compared.best:
+        facts = loss.facts()
+        names = ("step_width_mm", "step_width_lost_mm", "clearance_mm", "clearance_lost_mm")
+        rows.append([loss.device.name, *(_fixed(facts[name]) for name in names)])
+    columns = ("device", "step width mm", "lost mm", "clearance mm", "lost mm")
+    note = (
+        "Step width: sideways distance of the feet at heel strikes. Clearance: least height of the swinging "
+        "sole over the standing one in mid swing."
+    )
+    return Section("Step width and clearance", (Table(columns, rows), Words(note, "note")))
+
+
+def joints(compared: Comparison) -> Section:
+    """Curves, ranges used and changes of angles."""
+    same = (
+        ""
+        if compared.conditions.pelvis == "recorded"
+        else (
+            " On its own pelvis a device's hips take over what the recorded pelvis turned, so they differ "
+            "from the recorded hips without losing anything."
+        )
+    )
+    caption = f"Black: the recorded walk. A joint that a device locks is not drawn.{same} {drawn.TOGETHER}"
+    ranges = Table(
+        ("device", *(m.replace("_", " ") for m in MOVEMENTS), "hip change", "knee change"),
+        [[loss.device.name, *_used(loss)] for loss in compared.best],
+        "Ranges used, both legs; largest change of flexion from the angle asked for [deg]",
+    )
+    slides = [[loss.device.name, *cells] for loss in compared.best if any(cells := _slid(loss))]
+    names = (name.replace("_", " ") for name in SLIDES)
+    moved = (Table(("device", *names), slides, "Slides used [mm]"),) if slides else ()
+    note = Words("*: at a limit in some sample.", "note")
+    figures = [Figure(drawn.joints(compared, side), caption if side == SIDES[-1] else "") for side in SIDES]
+    return Section("Joints", (*figures, ranges, *moved, note))
+
+
+def _used(loss: Loss) -> list[str]:
+    """What a device uses of each movement's range, and how far hip and knee are from what was asked."""
+    cells = []
+    for movement in MOVEMENTS:
+        mine = [found for joint, found in loss.ranges.items() if movement_of(joint) == movement]
+        cells.append(_span(mine, float(np.degrees(1.0))) if mine else "locked")
+    changes = [f"{np.degrees(change):.1f}" for change in loss.angle_change.values()]
+    return [*cells, *changes]
+
+
+def _slid(loss: Loss) -> list[str]:
+    """What a device uses of each slide of the pelvis; empty where it has none."""
+    return [_span([loss.ranges[slide]], 1e3) if slide in loss.ranges else "" for slide in SLIDES]
+
+
+def _span(found: Sequence[tuple[float, float, int]], scale: float) -> str:
+    low, high = min(f[0] for f in found), max(f[1] for f in found)
+    mark = "*" if any(f[2] for f in found) else ""
+    return f"{round(scale * low) + 0} .. {round(scale * high) + 0}{mark}"
+
+
+def mass(compared: Comparison) -> Section:
+    """The path of the centre of mass."""
+    caption = (
+        "Black: the recorded walk, about its mean. Device and wearer; a slide can trade motion with the hips "
+        f"at little gain for the feet, so a path may wander. {drawn.TOGETHER}"
+    )
+    return Section("Centre of mass", (Figure(drawn.centre_of_mass(compared), caption),))
+
+
+def speeds(speeds: Mapping[str, Comparison]) -> Section:
+    """Sole error under other walks; by name, the same devices."""
+    found = {
+        (walk, loss.device.name): 1e3 * loss.rms for walk, other in speeds.items() for loss in other.best
+    }
+    devices = list(dict.fromkeys(device for _, device in found))
+    cells = {device: [found[walk, device] for walk in speeds] for device in devices}
+    drawing = heat(
+        "speeds",
+        "Sole error of the best motion, rms [mm]",
+        [w.replace("_", " ") for w in speeds],
+        cells,
+        width=760,
+    )
+    caption = "The same body and conditions under the normal walk (Schwartz 2008) at its speeds."
+    return Section("At the five speeds", (Figure((drawing,), caption, columns=1),))
+
+
+def _fixed(value: float | None) -> str:
+    return "-" if value is None else f"{round(value, 1) + 0.0:.1f}"
