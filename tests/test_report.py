@@ -11,12 +11,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from exo_pin import cli, crosscheck, ik, report
+from exo_pin import cli, crosscheck, feasible, ik, report
 from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.errors import DescriptionError
-from exo_pin.gait import Event, Gait, normative_gait, normative_sd
+from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
 from exo_pin.kinematics import center_of_mass, spatiotemporal
-from exo_pin.report import axis, blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.report import angles, axis, blocks, chart, cycle, loop, noise, panels, skeleton, svg
 from exo_pin.report.motion import motion
 from exo_pin.robot import load_robot, load_urdf
 
@@ -129,13 +129,36 @@ def test_ranges_are_those_of_the_cross_check(document, robot, gait):
 def test_rates_are_the_gaits_own_derivatives(document, robot, gait):
     rows = table(document, "Velocities and accelerations")
     for k, joint in enumerate(JOINTS):
-        speed, degrees, has, used, change, effort = (float(x) for x in rows[joint])
+        speed, degrees, has, used, change, hardest, share = (float(x) for x in rows[joint])
         peak = np.abs(gait.dq[:, k]).max()
         assert speed == pytest.approx(peak, abs=5e-3)
         assert degrees == pytest.approx(np.degrees(peak), abs=0.5)
-        assert (has, effort) == (robot.velocity[k], robot.effort[k])
+        assert (has, hardest) == (robot.velocity[k], feasible.ACCELERATION)
         assert used == pytest.approx(100 * peak / robot.velocity[k], abs=0.5)
         assert change == pytest.approx(np.abs(gait.ddq[:, k]).max(), abs=PRINTED)
+        assert share == pytest.approx(100 * change / hardest, abs=0.6)
+
+
+def test_torques_are_shown_before_the_actuators_when_they_are_given(robot, gait, document):
+    tau = np.full((30, 12), np.nan)
+    time = np.linspace(0.2, 0.8, 30)
+    tau[:, 3] = 200 * np.sin(8 * time)
+    torques = Torques(time, tau, source=EVIL)
+    shown = report.walk(robot, gait, torques=torques)
+    (row,) = table(shown, "Torques").items()
+    given = torques.at(gait.time)[:, 3]
+    low, high, share, has, used, beyond = row[1]
+    assert row[0] == "left_knee_flexion"
+    assert float(low) == pytest.approx(np.nanmin(given), abs=PRINTED)
+    assert float(high) == pytest.approx(np.nanmax(given), abs=PRINTED)
+    assert float(share) == pytest.approx(np.nanmax(np.abs(given)) / robot.body.mass, abs=5e-3)
+    assert float(has) == robot.effort[3]
+    assert int(beyond) == (np.abs(given) > robot.effort[3]).sum()
+    assert float(used) == pytest.approx(100 * np.nanmax(np.abs(given)) / robot.effort[3], abs=0.5)
+    (figure,) = [b for b in section(shown, "Torques").blocks if isinstance(b, blocks.Figure)]
+    assert [d.title for d in figure.drawings] == ["Knee flexion torque [N m]"]
+    assert EVIL not in report.html(shown)
+    assert "Torques" not in [s.title for s in document.sections]
 
 
 def test_residuals_and_witnesses_are_those_of_the_cross_check(document, robot, gait):
@@ -280,7 +303,7 @@ def test_stance_is_closed_at_the_ends_of_a_recording_and_around_a_cycle(gait):
 
 
 def test_the_band_is_the_normal_walk_and_its_spread():
-    percent, mean, sd = panels.normal("slow", 3)
+    percent, mean, sd = angles.normal("slow", 3)
     assert percent[[0, -1]].tolist() == [0, 100]
     np.testing.assert_allclose(np.radians(mean[:-1]), normative_gait("slow").q[:, 3])
     np.testing.assert_allclose(np.radians(sd[:-1]), normative_sd("slow")[:, 3])

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, walk
+from exo_pin.cli import options, show, torques, trials, walk
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 _EXAMPLES = """examples:
   exo-pin report -o report.html
   exo-pin report walk.mot --body patient.toml --who "patient 17" -o report.html
+  exo-pin report walk.mot --torques inverse_dynamics.sto -o report.html
   exo-pin report walk.mot --normal slow --filter 8 -o report.html
   exo-pin report walk.mot --no-player -o report.html     0.2 MB, for mail and print
 
@@ -63,6 +64,7 @@ def run(args: argparse.Namespace) -> int:
     if not (math.isfinite(args.filter) and args.filter >= 0):
         raise DescriptionError(f"--filter is {args.filter:g}; a frequency in Hz, or 0 for none, is accepted")
     body, gait = walk.read(args)
+    given = torques.given(args)
     gait, note = options.with_events(load_robot(body), gait)
     robot = load_robot(body, device=args.device, hip_order=args.hip_order)
     name = Path(args.gait).name
@@ -82,6 +84,7 @@ def run(args: argparse.Namespace) -> int:
             player=player,
             normal=None if args.normal == "none" else args.normal,
             cutoff=args.filter or None,
+            torques=given,
         )
         page = report.html(document)
     write_text(args.output, page)
@@ -100,8 +103,23 @@ def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
     """What the command line chose."""
     chosen = {
         "sign preset of the file": args.preset or "none given",
-        "body": args.body or "from the measures given, else the defaults",
+        "columns": ", ".join(args.map) if args.map else "under their own names",
+        "body": _body(args),
         "scaling": "angles as given, on the body's own lengths; a normal walk's stride time follows the leg",
         "player": "left out" if args.no_player else f"{args.support} by the support, speed {args.speed:g}",
     }
-    return chosen | ({"note on events": note} if note else {})
+    more = {"units of the table": args.units, "marker set": args.markers, "static trial": args.static}
+    more |= {"torques": args.torques, "compared with": args.compare, "note on events": note}
+    return chosen | {name: words for name, words in more.items() if words}
+
+
+def _body(args: argparse.Namespace) -> str:
+    """Where the body's sizes come from."""
+    names = ("stature", "mass", "sex", "waist_width", "hip_width")
+    measures = [f"{name} {value}" for name in names if (value := getattr(args, name)) is not None]
+    measures += args.set
+    if args.body:
+        return ", ".join([args.body, *measures])
+    if trials.body(args) is not None:
+        return "scaled from the markers" + (f", {', '.join(measures)}" if measures else "")
+    return ", ".join(measures) or "defaults: a man of 1.75 m and 70 kg"

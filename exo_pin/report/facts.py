@@ -1,4 +1,4 @@
-"""Sections of a report that are tables of facts: body, device, contact, the walk's numbers, choices."""
+"""Sections of a report that are tables of facts: body, device, the walk's numbers, choices."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from exo_pin.errors import DescriptionError, GaitError
 from exo_pin.gait import Gait, against_normal, normal
 from exo_pin.gait.norms import CITATIONS
 from exo_pin.kinematics import spatiotemporal
-from exo_pin.report import panels
-from exo_pin.report.blocks import Block, Figure, Section, Table, Words
+from exo_pin.report.blocks import Block, Section, Table, Words
 from exo_pin.robot import Robot
 
 
@@ -65,26 +64,6 @@ def device(robot: Robot) -> Section:
         rows += [["locked joints", ", ".join(made.locked) or "none"]]
         rows += [["remark", remark] for remark in made.remarks]
     return Section("Device", (Table(("device", ""), rows, prose=True),))
-
-
-def contact(gait: Gait) -> Section:
-    """Timeline and table of the events."""
-    if not gait.events:
-        return Section("Feet on the ground", (Words("No events: contact is unknown."),))
-    before = [None, *(event.time for event in gait.events)]
-    rows = [
-        [
-            f"{event.side} {event.kind.replace('_', ' ')}",
-            f"{event.time:.3f}",
-            "-" if last is None else f"{event.time - last:.3f}",
-            event.source or "not stated",
-        ]
-        for event, last in zip(gait.events, before, strict=False)
-    ]
-    figure = Figure((panels.contact_timeline(gait),), "Bars: from heel strike to toe-off.", columns=1)
-    return Section(
-        "Feet on the ground", (figure, Table(("event", "time s", "since the one before s", "source"), rows))
-    )
 
 
 def numbers(robot: Robot, gait: Gait) -> Section:

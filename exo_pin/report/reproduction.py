@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.gait import Gait
-from exo_pin.report import loop, panels, skeleton
+from exo_pin.report import angles, loop, skeleton
 from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Table, Words
 from exo_pin.report.cycle import legs
 from exo_pin.report.figure6 import answers, recovered
@@ -178,13 +178,13 @@ def _curves(gait: Gait, recording: Gait | None, name: str) -> Section:
     found = legs(gait)
     apart = float(np.degrees(np.abs(found[0].q - found[1].q).max()))
     words = f"Source: {gait.source}. Cycle of {gait.duration:.3f} s. Its two legs differ by {apart:.1g} deg."
-    band = panels.BAND_SOURCE.format(speed=_SPEED)
-    drawings = _named(panels.joints(found, speed=_SPEED, limits={}), "fig4")
+    band = angles.BAND_SOURCE.format(speed=_SPEED)
+    drawings = _named(angles.charts(found, speed=_SPEED, limits={}), "fig4")
     blocks: list[Block] = [Words(words), Figure(drawings, f"Fig. 4. The input gait. Band: {band}")]
     if recording is not None:
         mine = legs(recording)
         how = "; ".join(leg.note for leg in mine) or "no heel strikes in it, so it has no cycle"
-        shown = _named(panels.joints(mine, speed=_SPEED, limits={}), "fig4_recording")
+        shown = _named(angles.charts(mine, speed=_SPEED, limits={}), "fig4_recording")
         blocks.append(Figure(shown, f"{name} before the same band. {how}."))
     return Section("Fig. 4: the input gait", tuple(blocks))
 

@@ -1,0 +1,54 @@
+"""The path of the centre of mass."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from exo_pin.gait import Gait
+from exo_pin.kinematics import center_of_mass
+from exo_pin.report import panels
+from exo_pin.report.blocks import Drawing, Figure, Section, Table
+from exo_pin.report.chart import Chart, Curve, draw
+from exo_pin.robot import Robot
+
+Array = npt.NDArray[np.float64]
+
+
+def mass(robot: Robot, gait: Gait) -> Section:
+    """Charts about its mean, and a table."""
+    base = robot.base_of(gait)
+    position = center_of_mass(robot, robot.from_gait(gait), base=base).position
+    rows = [
+        [name, f"{mean:.3f}", f"{1e3 * extent:.1f}"]
+        for name, mean, extent in zip(
+            ("forward", "to the left", "up"), position.mean(axis=0), np.ptp(position, axis=0), strict=True
+        )
+    ]
+    body = robot.body
+    whose = (
+        ""
+        if body is None
+        else f" of {body.total_mass:.1f} kg ({'with' if body.wearer else 'without'} wearer)"
+    )
+    caption = f"Centre of mass{whose}: device and wearer; head, arms and trunk are one part of the pelvis."
+    table = Table(("direction", "mean m", "excursion mm"), rows, "In the world frame")
+    return Section("Centre of mass", (Figure(charts(gait, position), caption), table))
+
+
+def charts(gait: Gait, position: Array) -> tuple[Drawing, ...]:
+    """Forward, left and up `(n, 3)` [m] about their means, in millimetres."""
+    time, closed = panels.over_time(gait, 1e3 * (position - position.mean(axis=0)))
+    drawings = []
+    for axis, name in enumerate(("forward", "to the left", "up")):
+        title = f"Centre of mass, {name} [mm]"
+        chart = Chart(
+            title=title,
+            x_label="time [s]",
+            curves=(Curve(time, closed[:, axis], "#2f7d5b"),),
+            spans=panels.stances(gait),
+            least=10.0,
+            height=170,
+        )
+        drawings.append(Drawing(f"com_{'xyz'[axis]}", title, draw(chart)))
+    return tuple(drawings)

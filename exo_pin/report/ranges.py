@@ -1,0 +1,71 @@
+"""What the walk uses of each joint's range."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from exo_pin import crosscheck
+from exo_pin.anatomy import JOINTS
+from exo_pin.gait import Gait
+from exo_pin.report import svg
+from exo_pin.report.axis import ticks
+from exo_pin.report.blocks import Block, Drawing, Figure, Section, Table
+from exo_pin.robot import Robot
+
+
+def ranges(robot: Robot, gait: Gait) -> Section:
+    """Bars and a table: angles, limits, margins."""
+    rows, bars = [], []
+    for k, (name, (low, high, frames)) in enumerate(crosscheck.limits(robot, gait).items()):
+        if name not in JOINTS:  # a slide or a toe, which the walk knows nothing of
+            continue
+        a, b, lower, upper = np.degrees([low, high, robot.lower[k], robot.upper[k]])
+        bars.append((name, a, b, lower, upper))
+        margin = min(a - lower, upper - b)
+        numbers = [f"{round(x, 1) + 0.0:.1f}" for x in (a, b, b - a, lower, upper, margin)]
+        rows.append([name, *numbers, str(frames) if frames else "-"])
+    columns = (
+        "joint",
+        "min deg",
+        "max deg",
+        "range deg",
+        "lower limit",
+        "upper limit",
+        "margin deg",
+        "frames outside",
+    )
+    blocks: tuple[Block, ...] = (
+        Figure((range_bars(bars),), columns=1),
+        Table(columns, rows, "Ranges and limits [deg]; margin: to the nearer limit, negative outside"),
+    )
+    return Section("Ranges and limit margins", blocks)
+
+
+def range_bars(rows: Sequence[tuple[str, float, float, float, float]]) -> Drawing:
+    """By joint: what the walk uses of the joint's range.
+
+    Args:
+        rows: Joint, smallest and largest angle, lower and upper limit [deg].
+    """
+    width, left = 900.0, 160.0
+    low, high = min(r[3] for r in rows) - 5, max(r[4] for r in rows) + 5
+    low, high = min(low, *(r[1] for r in rows)), max(high, *(r[2] for r in rows))
+    scale = (width - left - 16) / (high - low)
+    parts = []
+    bottom = 10 + 19 * len(rows)
+    for x in ticks(low, high, 9):
+        at = left + scale * (x - low)
+        parts.append(svg.line([[at, 8], [at, bottom]], svg.FAINT, stroke_width=0.8))
+        parts.append(svg.text(at, bottom + 13, f"{x:.0f}", text_anchor="middle", font_size=10, fill=svg.GREY))
+    for k, (joint, a, b, lower, upper) in enumerate(rows):
+        y, colour = 10 + 19 * k, svg.COLOURS.get(joint.split("_")[0], svg.GREY)
+        parts.append(svg.text(left - 8, y + 12, joint.replace("_", " "), text_anchor="end"))
+        room = {"x": left + scale * (lower - low), "y": y + 4, "width": scale * (upper - lower), "height": 9}
+        parts.append(svg.tag("rect", fill="#c9d1d9", rx=2, **room))
+        used = {"x": left + scale * (a - low), "y": y + 2, "width": max(scale * (b - a), 1.5), "height": 13}
+        parts.append(svg.tag("rect", fill=colour, rx=3, **used))
+    title = "Angles used (coloured) within the joints' ranges (grey) [deg]"
+    parts.append(svg.text(left + (width - left) / 2, bottom + 28, title, text_anchor="middle", fill=svg.GREY))
+    return Drawing("ranges", title, svg.drawing(width, bottom + 34, parts, title))
