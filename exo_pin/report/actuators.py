@@ -84,7 +84,7 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
     note = (
         f"Given, not computed here: {given.source or 'source not stated'}; {inside} of {len(gait)} samples "
         "have torques, linear between those of the file. Positive drives the joint the way its name says "
-        "(muscles' or motors' torque). Per kg: of the person's mass. Used: by an actuator that does all alone."
+        "(muscles' or motors' torque). Per kg of the person. Used: by an actuator that does it alone."
     )
     charts = panels.by_movement(
         gait, tau, names, "torque", "N m", limits=effort, limit="actuator", least=10.0
