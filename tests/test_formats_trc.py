@@ -53,11 +53,23 @@ def test_empty_cells_are_markers_that_were_not_seen(path):
     np.testing.assert_array_equal(gaps, [[False, False], [True, False], [False, True]])
 
 
+def test_zeros_and_nan_are_markers_that_were_not_seen_too(path):
+    path.write_text(trc(cell=lambda i, j: ("0.000" if i else "NaN") if j < 3 else "7"))
+    np.testing.assert_array_equal(np.isnan(load_markers(path).of("LASI")), True)
+    path.write_text(trc(cell=lambda i, j: "0" if j == 1 else "7"))
+    assert not np.isnan(load_markers(path).position).any()  # one zero is a place like any other
+
+
+def test_decimal_commas_and_words_for_units_are_understood(path):
+    path.write_text(trc(unit="Meters", cell=lambda i, j: "1,5"))
+    np.testing.assert_array_equal(load_markers(path).position, 1.5)
+
+
 def test_what_the_header_says_must_be_true(path):
     refused(path, trc(n=4), "header says 4 frames, the file has 3")
     refused(path, trc(k=3), "header says 3 markers, the line of names has 2", 4)
     refused(path, trc(n="9" * 14), "header says 9+ frames")
-    refused(path, trc(unit="inch"), "Units is 'inch'; mm, cm, m are accepted", 3)
+    refused(path, trc(unit="inch"), "Units is 'inch'; mm, cm and m are accepted", 3)
     refused(path, "Coordinates\nendheader\n", "first line is not 'PathFileType", 1)
     refused(path, trc(frames=0), "no frames|shape")
     refused(path, trc(cell=lambda i, j: "x" if i else "1"), "'x' is no number", 8)
@@ -67,7 +79,7 @@ def test_what_the_header_says_must_be_true(path):
 
 def test_a_marker_file_is_no_gait_and_says_what_to_do(path):
     path.write_text(trc())
-    with pytest.raises(FormatError, match=r"holds markers, not angles; exo_pin\.markers"):
+    with pytest.raises(FormatError, match=r"holds markers, not angles; exo_pin\.markers\.load_walk"):
         load_gait(path)
     with pytest.raises(FormatError, match="a marker trial ends in"):
         load_markers(path.with_suffix(".csv"))
@@ -92,6 +104,15 @@ def test_markers_are_checked_at_the_door():
         Markers(time, ("a",), position, up="z")
     with pytest.raises(UnknownNameError, match="marker"):
         Markers(time, ("a",), position).of("b")
+
+
+def test_markers_take_other_names_and_push_out_who_had_them():
+    trial = Markers([0, 1], ("a", "b", "c"), np.arange(18.0).reshape(2, 3, 3))
+    named = trial.renamed({"a": "LASI", "b": "c"})
+    assert named.names == ("LASI", "c")
+    np.testing.assert_array_equal(named.of("c"), trial.of("b"))
+    with pytest.raises(UnknownNameError, match="marker 'd'"):
+        trial.renamed({"d": "LASI"})
 
 
 def test_the_recording_is_read(shared):

@@ -42,8 +42,7 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     """The gait that the arguments name; reasons to doubt how it was read go to stderr."""
     walk = trials.gait(args)
     if walk is None:
-        mapping = {column: str(joint) for column, joint in map(_column, args.map)}
-        told = {"preset": args.preset, "mapping": mapping, "units": args.units}
+        told = {"preset": args.preset, "mapping": trials.mapping(args), "units": args.units}
         walk = load(args.gait, body, **told, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {walk.source}", file=sys.stderr)
@@ -52,14 +51,6 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     for reason in doubts(walk):
         print(f"warning: {reason}", file=sys.stderr)
     return walk
-
-
-def _column(text: str) -> tuple[str, str]:
-    """`COLUMN=JOINT` as a pair; a column's own name may hold the sign `=`."""
-    column, found, joint = text.rpartition("=")
-    if not (found and column and joint):
-        raise DescriptionError(f"--map {text!r} is not of the form COLUMN=JOINT")
-    return column, joint
 
 
 def load(name: str, body: Body, **reading: Any) -> Gait:
@@ -74,6 +65,8 @@ def load(name: str, body: Body, **reading: Any) -> Gait:
         return normative_gait(name, leg_length=body.leg_length)
     if not Path(name).suffix and not Path(name).exists():
         raise UnknownNameError("gait (a file or a speed)", name, SPEEDS)
+    if trials.is_trial(Path(name)):
+        return trials.walk(Path(name))
     from exo_pin.formats import load_gait
 
     return load_gait(name, **reading)

@@ -8,7 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.errors import FormatError
+from exo_pin.errors import DescriptionError, FormatError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
@@ -28,7 +28,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="COLUMN=JOINT",
         help="a table's column is this joint, or `time`; --map=-COLUMN=JOINT turns the sign, a number as "
-        "COLUMN holds the joint there",
+        "COLUMN holds the joint there; of a marker trial: MARKER=NAME, a marker's name in its set",
     )
     group.add_argument("--units", choices=("deg", "rad"), help="of a mapped table's angles")
     group.add_argument(
@@ -45,6 +45,23 @@ def add(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
 
 
+def mapping(args: argparse.Namespace) -> dict[str, str]:
+    """What `--map` says: the file's name of a column or marker -> ours.
+
+    Raises:
+        DescriptionError: A word of it is not of the form NAME=NAME.
+    """
+    return dict(map(_pair, args.map))
+
+
+def _pair(text: str) -> tuple[str, str]:
+    """`COLUMN=JOINT` as a pair; a column's own name may hold the sign `=`."""
+    column, found, joint = text.rpartition("=")
+    if not (found and column and joint):
+        raise DescriptionError(f"--map {text!r} is not of the form COLUMN=JOINT")
+    return column, joint
+
+
 def opensim(args: argparse.Namespace) -> dict[str, Any]:
     """What the user says of OpenSim's coordinates, as `load_gait` takes it."""
     order = None if args.pelvis_order is None else args.pelvis_order.split(",")
@@ -58,13 +75,25 @@ def found(args: argparse.Namespace) -> Reconstruction | None:
         FormatError: The trial cannot be read, or makes no walk.
     """
     path = Path(getattr(args, "gait", None) or "")
-    if path.suffix.lower() not in (".trc", ".c3d") or not hasattr(args, "markers"):
+    if not hasattr(args, "markers"):
         return None
     chosen = None if args.markers in (None, "auto") else args.markers
     told = args.markers is not None or args.static is not None
-    if path.suffix.lower() == ".c3d" and not told and _has_angles(path):
+    if not is_trial(path, told=told):
         return None
-    return _solved(path, args.static, chosen, args.mass, args.sex or "male")
+    names = tuple(mapping(args).items())
+    return _solved(path, args.static, chosen, names, args.mass, args.sex or "male")
+
+
+def is_trial(path: Path, *, told: bool = False) -> bool:
+    """Whether a file's walk must be made of its markers; `told`: the user wants it from those of a C3D."""
+    kind = path.suffix.lower()
+    return kind == ".trc" or (kind == ".c3d" and (told or not _has_angles(path)))
+
+
+def walk(path: Path) -> Gait:
+    """The walk of another trial than the command's own."""
+    return _solved(path, None, None, (), None, "male").gait
 
 
 def body(args: argparse.Namespace) -> Body | None:
@@ -94,11 +123,16 @@ def gait(args: argparse.Namespace) -> Gait | None:
 
 @lru_cache(maxsize=2)
 def _solved(
-    path: Path, static: str | None, markers: str | None, mass: float | None, sex: str
+    path: Path,
+    static: str | None,
+    markers: str | None,
+    names: tuple[tuple[str, str], ...],
+    mass: float | None,
+    sex: str,
 ) -> Reconstruction:
     from exo_pin.markers import load_walk
 
-    return load_walk(path, static=static, markers=markers, mass=mass, sex=sex)
+    return load_walk(path, static=static, markers=markers, mapping=dict(names), mass=mass, sex=sex)
 
 
 @lru_cache(maxsize=2)

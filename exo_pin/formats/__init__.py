@@ -102,7 +102,7 @@ def load_gait(
     """
     path = Path(path)
     if path.suffix.lower() in MARKER_FORMATS and path.suffix.lower() not in FORMATS:
-        raise FormatError(path, "holds markers, not angles; exo_pin.markers makes a walk of them")
+        raise FormatError(path, "holds markers, not angles; exo_pin.markers.load_walk makes a walk of them")
     read = _format(path, FORMATS | dict.fromkeys(MARKER_FORMATS, FORMATS[".c3d"])).read
     if read is not opensim.read_gait and (model or pelvis_order):
         raise FormatError(

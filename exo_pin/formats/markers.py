@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -105,6 +105,20 @@ class Markers:
         if name not in self.names:
             raise UnknownNameError("marker", name, self.names)
         return np.asarray(self.position[:, self.names.index(name)])
+
+    def renamed(self, mapping: Mapping[str, str]) -> Markers:
+        """The same trial with other names for some markers; whoever had such a name before is left out.
+
+        Raises:
+            UnknownNameError: There is no marker of a name in `mapping`.
+        """
+        for name in mapping:
+            if name not in self.names:
+                raise UnknownNameError("marker", name, self.names)
+        taken = set(mapping.values())
+        kept = [k for k, name in enumerate(self.names) if name in mapping or name not in taken]
+        names = tuple(mapping.get(self.names[k], self.names[k]) for k in kept)
+        return replace(self, names=names, position=self.position[:, kept])
 
     def turned(self, R: ArrayLike) -> Markers:
         """The same trial in other axes: every vector times `R (3, 3)`; z is up then."""

@@ -15,6 +15,7 @@ from exo_pin.formats.markers import Markers, unique
 from exo_pin.formats.table import Array
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
+METRES |= {"millimeters": 1e-3, "centimeters": 1e-2, "meters": 1.0, "millimetres": 1e-3, "metres": 1.0}
 """Units of length a file may state."""
 
 MOST_NUMBERS = 30_000_000
@@ -25,7 +26,9 @@ KEYS = 3
 
 
 def read_markers(path: Path) -> Markers:
-    """Read a .trc file; an empty cell is a marker that was not seen. What the header says must be true.
+    """Read a .trc file. What the header says must be true.
+
+    A marker whose cells are empty, NaN or all three exactly 0 was not seen. Decimals may have a comma.
 
     The format does not say which axis is up.
 
@@ -46,6 +49,7 @@ def read_markers(path: Path) -> Markers:
         raise FormatError(path, f"header says {stated} frames, the file has {len(values)}; cut short?")
     scale = METRES[_unit(path, said)]
     position = values[:, 2:].reshape(len(values), len(names), 3)[:, list(places.values())] * scale
+    position = np.where((position == 0).all(axis=2, keepdims=True), np.nan, position)
     if np.isnan(values[:, 1]).any():
         raise FormatError(path, "a frame without a time", line=first)
     try:
@@ -66,7 +70,7 @@ def _keys(path: Path, lines: Sequence[str]) -> dict[str, str]:
 def _unit(path: Path, said: dict[str, str]) -> str:
     unit = said.get("units", "").lower()
     if unit not in METRES:
-        raise FormatError(path, f"Units is {unit[:20]!r}; {', '.join(METRES)} are accepted", line=3)
+        raise FormatError(path, f"Units is {unit[:20]!r}; mm, cm and m are accepted", line=3)
     return unit
 
 
@@ -95,7 +99,7 @@ def _values(path: Path, lines: Sequence[str], k: int) -> Array:
         raise FormatError(path, f"more than {MOST_NUMBERS} numbers; split the trial")
     values = np.full((len(rows), width), np.nan)
     for i, (number, line) in enumerate(rows):
-        cells = line.rstrip("\t ").split("\t")
+        cells = line.rstrip("\t ").replace(",", ".").split("\t")
         if len(cells) > width or len(cells) < 2:
             raise FormatError(path, f"{len(cells)} values, but {k} markers need {width}", line=number)
         values[i, : len(cells)] = _row(path, cells, number)

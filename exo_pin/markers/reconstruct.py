@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from exo_pin.formats.markers import UPS, to_z_up
 from exo_pin.gait import Gait
 from exo_pin.markers.fit import few, learnt, solved
 from exo_pin.markers.scale import Placement, body_of, first_sizes
-from exo_pin.markers.sets import MarkerSet, marker_set
+from exo_pin.markers.sets import MarkerSet, marker_set, plain
 from exo_pin.robot import Robot
 
 Array = NDArray[np.float64]
@@ -69,16 +70,26 @@ def load_walk(
     *,
     static: str | Path | None = None,
     markers: str | None = None,
+    mapping: Mapping[str, str] = MappingProxyType({}),
     mass: float | None = None,
     sex: str = "male",
 ) -> Reconstruction:
-    """Read a marker trial (.trc, .c3d) and make a walk of it; arguments as in `reconstruct`.
+    """Read a marker trial (.trc, .c3d) and make a walk of it; other arguments as in `reconstruct`.
+
+    Args:
+        path: The trial.
+        static: File of a standing trial.
+        markers: Name of the marker set.
+        mapping: The trial's own name of a marker -> the set's.
+        mass: Of the person [kg].
+        sex: Whose segment masses.
 
     Raises:
         FormatError: The file cannot be read, or its markers make no walk.
+        UnknownNameError: There is no such marker set, or no marker of a mapped name.
     """
-    trial = load_markers(path)
-    standing = None if static is None else load_markers(static)
+    trial = load_markers(path).renamed(mapping)
+    standing = None if static is None else load_markers(static).renamed(mapping)
     try:
         return reconstruct(trial, static=standing, markers=markers, mass=mass, sex=sex)
     except FormatError:
@@ -142,9 +153,10 @@ def _paths(trial: Markers, name: str | None) -> tuple[MarkerSet, dict[str, Array
 
 def with_sacrum(trial: Markers) -> Markers:
     """The middle of LPSI and RPSI serves as SACR, as Plug-in Gait has it."""
-    if "SACR" in trial.names or not {"LPSI", "RPSI"} <= set(trial.names):
+    own = {plain(name): name for name in trial.names}
+    if "SACR" in own or not {"LPSI", "RPSI"} <= set(own):
         return trial
-    middle = (trial.of("LPSI") + trial.of("RPSI")) / 2
+    middle = (trial.of(own["LPSI"]) + trial.of(own["RPSI"])) / 2
     position = np.concatenate([trial.position, middle[:, None]], axis=1)
     return dataclasses.replace(trial, names=(*trial.names, "SACR"), position=position)
 

@@ -102,8 +102,9 @@ def _hips(chosen: MarkerSet, paths: Mapping[str, Array], asis: float) -> _Hips:
     """By the set's own ratio, or by Davis et al. 1991 (Hum Mov Sci 10:575) as Plug-in Gait has it."""
     if chosen.hip_width is not None:
         return _Hips(chosen.hip_width * asis, None)
-    upper = np.mean([_distance(paths, f"{S}ASI", f"{S}KNE") for S in "LR"])
-    leg = float(upper + np.mean([_distance(paths, f"{S}KNE", f"{S}ANK") for S in "LR"]))
+    parts = (("ASI", "KNE"), ("KNE", "ANK"))
+    sides = [S for S in "LR" if f"{S}KNE" in paths and f"{S}ANK" in paths]
+    leg = float(np.mean([sum(_distance(paths, f"{S}{a}", f"{S}{b}") for a, b in parts) for S in sides]))
     C, theta, beta = 0.115 * leg - 0.0153, 0.5, 0.314
     trochanter = 0.1288 * leg - 0.04856 + MARKER_RADIUS
     x = C * np.cos(theta) * np.sin(beta) - trochanter * np.cos(beta)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -68,6 +68,12 @@ class MarkerSet(NamedTuple):
                 out[name.format(S=side[0].upper())] = (link, mirrored)
         return out
 
+
+OR = {"SACR": " (or LPSI and RPSI)"}
+"""Marker -> what may stand for it."""
+
+FEW = 0.3
+"""With a smaller part of a set's markers a trial is of another set."""
 
 BONE, SKIN, WAND = 0.012, 0.03, 0.10
 
@@ -139,39 +145,58 @@ def marker_set(names: Iterable[str], name: str | None = None) -> tuple[MarkerSet
     """
     if name is not None and name not in SETS:
         raise UnknownNameError("marker set", name, SETS)
-    ours = {_plain(own): own for own in names}
+    ours = {plain(own): own for own in names}
     found = {
-        entry.name: {spot: ours[_plain(spot)] for spot in entry.spots() if _plain(spot) in ours}
+        entry.name: {spot: ours[plain(spot)] for spot in entry.spots() if plain(spot) in ours}
         for entry in SETS.values()
         if name in (None, entry.name)
     }
     best = max(found, key=lambda key: len(found[key]))
-    _check(SETS[best], found[best])
+    _check(SETS[best], found[best], list(ours.values()))
     return SETS[best], found[best]
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
+    """A marker's name as it is compared: capitals and digits only."""
     return re.sub(r"[^A-Z0-9]", "", name.upper())
 
 
-def _check(chosen: MarkerSet, found: dict[str, str]) -> None:
-    """Every segment has the markers that it needs."""
-    spots = chosen.spots()
-    links: dict[str, list[str]] = {}
-    for marker, (link, _) in spots.items():
-        links.setdefault(link, []).append(marker)
-    for link, markers in links.items():
-        seen = [marker for marker in markers if marker in found]
-        needed = NEEDED[spots[markers[0]][1].segment]
-        if len(seen) < needed:
-            gone = ", ".join(marker for marker in markers if marker not in found)
-            raise GaitError(
-                f"marker set {chosen.name}: {link} has {len(seen)} of the {needed} markers that it needs; "
-                f"missing: {gone} (known sets: {', '.join(SETS)})"
-            )
-    for marker in (chosen.asis, *chosen.heel_toe):
-        for side in "LR":
-            if marker.format(S=side) not in found:
-                raise GaitError(
-                    f"marker set {chosen.name}: {marker.format(S=side)} is missing; it gives the scale"
-                )
+def _check(chosen: MarkerSet, found: Mapping[str, str], own: Sequence[str]) -> None:
+    """Every segment has the markers that it needs, and lengths can be told."""
+    wants = list(_gaps(chosen, found)) or list(_unscaled(chosen, found))
+    if wants and len(found) < FEW * len(chosen.spots()):
+        shown = f"{', '.join(own[:10])}{' ...' * (len(own) > 10)}"
+        sets = "; ".join(f"{entry.name} ({_names(entry)})" for entry in SETS.values())
+        raise GaitError(f"its markers ({shown}) are of no known set; map them to one of {sets}")
+    if wants:
+        known = f"other names can be mapped; known sets: {', '.join(SETS)}"
+        raise GaitError(f"marker set {chosen.name}: {'; '.join(wants)} ({known})")
+
+
+def _names(entry: MarkerSet) -> str:
+    return ", ".join([*entry.middle, *(name.format(S="L/R") for name in entry.paired)])
+
+
+def _gaps(chosen: MarkerSet, found: Mapping[str, str]) -> Iterator[str]:
+    """What segments lack."""
+    segments: dict[str, list[str]] = {}
+    for marker, (link, spot) in chosen.spots().items():
+        side = link.partition("_")[0] if link != spot.segment else ""
+        segments.setdefault(f"{side} {spot.segment}".strip(), []).append(marker)
+    for name, markers in segments.items():
+        needed = NEEDED[name.rpartition(" ")[2]]
+        gone = [marker for marker in markers if marker not in found]
+        if len(markers) - len(gone) < needed:
+            has = f"{name} has {len(markers) - len(gone)} of the {needed} markers that it needs"
+            either = [f"{marker}{OR.get(marker, '')}" for marker in gone]
+            yield f"{has}, missing: {', '.join(either)}"
+
+
+def _unscaled(chosen: MarkerSet, found: Mapping[str, str]) -> Iterator[str]:
+    """What lengths lack."""
+    scale = [name.format(S=S) for name in (chosen.asis, *chosen.heel_toe) for S in "LR"]
+    gone = [name for name in scale if name not in found]
+    if gone:
+        yield f"{', '.join(gone)} missing, which give{'s' * (len(gone) == 1)} the scale"
+    if chosen.hip_width is None and not any({f"{S}KNE", f"{S}ANK"} <= set(found) for S in "LR"):
+        yield "KNE and ANK of neither leg are there, which give its length"
