@@ -17,6 +17,9 @@ TOUCH = 2e-3  # [m]: a standing sole this close to the ground touches it
 SMOOTH = 15.0  # [m/s^2]: the pelvis of fast walkers reaches half of this; a jerk far exceeds it
 STEADY = 0.06  # [m]: how far the pelvis may surge; people's pelvis surges 2-4 cm
 
+SWAY = 0.09  # [m]: people's pelvis sways 4 to 7 cm, the more the slower they walk
+SLIDE = 2e-3  # [m]: sideways, of the corner that bears the weight, in one single support
+
 
 @pytest.fixture(scope="module")
 def robot():
@@ -46,6 +49,21 @@ def test_the_pelvis_is_carried_smoothly_and_not_far(robot, speed):
     assert np.abs(acceleration).max() < SMOOTH
     assert np.ptp(path[:, 0]) < STEADY
     assert np.ptp(path[:, 2]) < STEADY
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_the_pelvis_sways_to_the_standing_leg_so_that_its_foot_does_not_slide(robot, speed):
+    gait = normative_gait(speed)
+    shown = motion(robot, gait)
+    left, right = standing(shown, "left"), standing(shown, "right")
+    sway = shown.base[:, 1, 3] - shown.base[:, 1, 3].mean()
+    assert sway[left & ~right].mean() > 0.005 > -0.005 > sway[right & ~left].mean()
+    assert np.ptp(sway) < SWAY
+    assert shown.support.slide < SLIDE
+    flat = left & ~right & (np.ptp(shown.corners[:, :4, 2], axis=1) < 0.01)
+    sole = shown.corners[:, :4, 1].mean(axis=1)[flat]
+    given = sole - sway[flat]  # where it would be without the sway
+    assert np.ptp(sole) < 0.5 * np.ptp(given)
 
 
 @pytest.mark.parametrize("speed", ["slow", "free", "fast"])

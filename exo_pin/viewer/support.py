@@ -1,8 +1,9 @@
 """How the balance support carries the pelvis, so that the walk stands on its ground.
 
 Joint angles say nothing of the pelvis's path. `carried` derives it from the feet: the lowest sole corners are
-kept on the ground, and the corner that bears the weight goes back with the belt; `still` holds the pelvis as
-in the paper and only lifts or lowers the walk as a whole. Neither touches the pelvis's rotation.
+kept on the ground, and the corner that bears the weight goes straight back with the belt, so that the pelvis
+sways towards the standing leg as people's does; `still` holds the pelvis as in the paper and only lifts or
+lowers the walk as a whole. Neither touches the pelvis's rotation.
 """
 
 from __future__ import annotations
@@ -80,37 +81,34 @@ def support(style: str, gait: Gait, base: Array, corners: Array, stance: Interva
     if style not in STYLES:
         raise UnknownNameError("support", style, STYLES)
     overground = bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > OVERGROUND)
-    x, z, said = STYLES[style](gait, corners, stance, overground)
-    shown, feet = base.copy(), corners.copy()
-    for points in (shown[:, None, :3, 3], feet):
-        points[..., 0] += x[:, None]
-        points[..., 2] += z[:, None]
+    shift, said = STYLES[style](gait, corners, stance, overground)
+    shown, feet = base.copy(), corners + shift[:, None]
+    shown[:, :3, 3] += shift
     speed = 0.0 if overground else max(-float(_bearing_velocity(gait, feet)[:, 0].mean()), 0.0)
     numbers = _remains(gait, feet, stance)
     return Support(shown, speed, overground, *numbers, f"{said} {_words(*numbers)}")
 
 
-def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, Array, str]:
+def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
     z = _smooth(gait, -np.sum(_weights(corners, SOFTNESS) * corners[..., 2], axis=1))
     z += max(-float((corners[..., 2] + z[:, None]).min()) - DEEPEST, 0.0)
     rise = f"raised and lowered by {_mm(np.ptp(corners[..., 2].min(axis=1)))}"
     if overground:
-        return (
-            np.zeros(len(z)),
-            z,
-            f"Balance support: the pelvis is {rise} so that the soles stay on the ground.",
-        )
-    drift = _bearing_velocity(gait, corners)[:, 0]
-    x = _smooth(gait, _integral(gait, drift.mean() - drift))
-    x -= x.mean()
+        still = np.zeros(len(z))
+        said = f"Balance support: the pelvis is {rise} so that the soles stay on the ground."
+        return np.stack([still, still, z], axis=1), said
+    drift = _bearing_velocity(gait, corners)[:, :2]
+    path = [_smooth(gait, _integral(gait, rate.mean() - rate)) for rate in drift.T]
+    x, y = (line - line.mean() for line in path)
     said = (
-        f"Balance support: the pelvis is {rise} and moved fore and aft by {_mm(np.ptp(x))}, so that the "
-        f"standing foot stays on the belt, which runs at {round(-drift.mean(), 2) + 0.0:.2f} m/s."
+        f"Balance support: the pelvis is {rise}, moved fore and aft by {_mm(np.ptp(x))} and sideways by "
+        f"{_mm(np.ptp(y))}, so that the standing foot stays on the belt, which runs at "
+        f"{round(-drift[:, 0].mean(), 2) + 0.0:.2f} m/s."
     )
-    return x, z, said
+    return np.stack([x, y, z], axis=1), said
 
 
-def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, Array, str]:
+def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
     heights, time = lowest_corners(corners), gait.time - gait.time[0]
     low = [heights[side][samples(stance, side, time)].min(initial=np.inf) for side in SIDES]
     shift = -min(low) if np.isfinite(min(low)) else -float(corners[..., 2].min())
@@ -118,14 +116,14 @@ def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> t
         f"Balance support: the pelvis's path is as given, shifted by {1000 * shift:+.1f} mm as a whole so "
         "that the lowest standing sole corner is on the ground."
     )
-    return np.zeros(len(gait)), np.full(len(gait), shift), said
+    return np.tile([0.0, 0.0, shift], (len(gait), 1)), said
 
 
-STYLES: dict[str, Callable[[Gait, Array, Intervals, bool], tuple[Array, Array, str]]] = {
+STYLES: dict[str, Callable[[Gait, Array, Intervals, bool], tuple[Array, str]]] = {
     "carried": _carried,
     "still": _still,
 }
-"""Name -> what moves the pelvis: (fore-aft `(n,)`, vertical `(n,)` [m], words)."""
+"""Name -> what moves the pelvis: its shift `(n, 3)` [m], and words."""
 
 
 def _weights(corners: Array, softness: float) -> Array:
