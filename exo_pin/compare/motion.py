@@ -2,7 +2,9 @@
 
 The best motion minimises, sample by sample, the sum of squared distances of the four sole corners of each
 foot from where the recorded feet have them: weighted least squares over position and rotation, with weights
-that need no choosing, because both are distances of points on the sole. It keeps the device's joint limits.
+that need no choosing, because both are distances of points on the sole. It keeps the device's joint limits;
+where the best of each sample would need joints faster than the device's, the best of the whole motion is
+taken that keeps its speeds, too.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from exo_pin.anatomy.hip import hip_angles
 from exo_pin.devices import Device
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
+from exo_pin.ik.paced import paced
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot, load_robot
 
@@ -132,12 +135,20 @@ def projected(recorded: Walk, robot: Robot, conditions: Conditions = GRANTED) ->
 def best(
     recorded: Walk, robot: Robot, conditions: Conditions = GRANTED, *, settings: ik.Dls = SETTINGS
 ) -> Motion:
-    """The device's best motion towards the recorded feet, within its joint limits."""
+    """The device's best motion towards the recorded feet, within its joint limits and speeds."""
     base = _stand(recorded, robot, conditions)
     asked = _asked(recorded, base)
     start = _copy(recorded, robot, asked)
-    track = ik.track(robot, sole_targets(robot, recorded.corners), start, base=base, settings=settings)
-    return _motion(recorded, robot, track.q, base, asked)
+    targets = sole_targets(robot, recorded.corners)
+    q = ik.track(robot, targets, start, base=base, settings=settings).q
+    q = paced(robot, targets, q, pace(recorded.gait, robot), base=base)
+    return _motion(recorded, robot, q, base, asked)
+
+
+def pace(gait: Gait, robot: Robot) -> Array:
+    """How far each joint can move between samples: (n - 1, nq), of a periodic gait (n, nq) [rad, m]."""
+    end = [gait.time[0] + gait.duration] if gait.periodic else []
+    return np.asarray(np.diff(gait.time, append=end)[:, None] * robot.velocity)
 
 
 def corners(robot: Robot, feet: Array) -> Array:

@@ -182,7 +182,7 @@ class _Pool:
         damping = np.minimum(self.factor, 1e30) * self.now.cost + _FLOOR
         slope = self.now.slope
         free = ((self.q > self.low) | (slope > 0.0)) & ((self.q < self.high) | (slope < 0.0))
-        A = _definite(self.now, damping, free & (self.low < self.high))
+        A = curvature(self.now, damping, free & (self.low < self.high))
         x = normal.box_steps(A, np.where(free, slope, 0.0), self.low - self.q, self.high - self.q)
         trial = np.minimum(np.maximum(self.q + x, self.low), self.high)
         then = pull(limb, self.aimed, trial)
@@ -197,8 +197,8 @@ class _Pool:
         self.factor[(size < _STUCK) | ((size < _ROUNDED) & ~better)] = np.inf
 
 
-def _definite(now: Pull, damping: Array, free: Bools) -> Array:
-    """The damped second derivative over the free joints; where it has no least point, Gauss-Newton's.
+def curvature(now: Pull, damping: Array, free: Bools) -> Array:
+    """The damped second derivative (J, J, m) over the free joints; where it is indefinite, Gauss-Newton's.
 
     A joint that is pressed against its limit is left where it is (projected Newton, Bertsekas 1982): what
     bends the cost the wrong way there must not spoil the steps of the others.
