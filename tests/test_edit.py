@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 
 from exo_pin import edit
-from exo_pin.anatomy import CORNERS, FEET, JOINTS
+from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
+from exo_pin.edit.check import JOLT
 from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import SPEEDS, Gait, normative_gait
 from exo_pin.kinematics import poses, spatiotemporal
 from exo_pin.robot import load_robot
 
 EXACT = 1e-9
 FEET_MET = 1e-8  # [m] inverse kinematics' tolerance is 1e-9
+GROUND = 1e-4  # [m] a standing sole goes nowhere
+NEARLY = 1.1  # strides of 1.2 at the fastest walk come to 209 rad/s^2
 LENGTH = 0.05  # of the factor: the stride is measured between heels, the path scaled at the ankle
 
 
@@ -160,21 +163,72 @@ def test_a_walk_over_ground_gets_along_in_proportion(robot, walk):
     assert stride(robot, changed) / stride(robot, over) == pytest.approx(0.75, abs=LENGTH)
 
 
-def test_clearance_is_scaled_in_swing_while_standing_feet_stay(robot, walk):
-    changed, track = edit.strided(robot, walk, clearance=1.3)
-    low, high = (
-        poses(robot, robot.from_gait(g), CORNERS, base=g.base)[..., 2, 3].reshape(-1, 2, 4).min(axis=2)
-        for g in (walk, changed)
+def soles(robot, gait):
+    """(n, 2) height of each sole's lowest corner over the ground, and the ground."""
+    low = (
+        poses(robot, robot.from_gait(gait), CORNERS, base=gait.base)[..., 2, 3].reshape(-1, 2, 4).min(axis=2)
     )
-    ground = np.percentile(low, 5, axis=0)
+    return low, np.percentile(low, 5, axis=0)
+
+
+def standing(gait):
+    """(n, 2) which samples are in stance."""
+    return np.column_stack([gait.stance(side) for side in SIDES])
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.3, 2.0])
+def test_clearance_is_scaled_in_mid_swing_while_standing_feet_stay(robot, walk, factor):
+    changed, track = edit.strided(robot, walk, clearance=factor)
+    (low, ground), (high, _) = soles(robot, walk), soles(robot, changed)
     assert track.position_error.max() < FEET_MET
-    np.testing.assert_allclose((high - ground).max(axis=0), 1.3 * (low - ground).max(axis=0), rtol=0.02)
-    stance = np.column_stack([walk.stance(side) for side in ("left", "right")])
-    assert np.abs(high - low)[stance & (low < ground + 0.01)].max() < 0.002
+    ends = {(e.side, e.kind): e.time for e in walk.events}
+    for k, side in enumerate(SIDES):
+        off, strike = ends[side, "toe_off"], ends[side, "heel_strike"]
+        middle = (off + (strike - off) % walk.duration / 2) % walk.duration
+        before, after = (np.interp(middle, walk.time, x[:, k]) - ground[k] for x in (low, high))
+        assert after == pytest.approx(factor * before, rel=0.02)
+    assert np.abs(high - low)[standing(walk)].max() < GROUND
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+@pytest.mark.parametrize(
+    ("stride", "clearance"), [(0.7, 1.0), (1.1, 1.0), (1.2, 1.0), (1.0, 0.5), (1.0, 1.5)]
+)
+def test_everyday_adjustments_neither_jolt_nor_lift_standing_feet(robot, speed, stride, clearance):
+    walk = normative_gait(speed)
+    changed, track = edit.strided(robot, walk, stride=stride, clearance=clearance)
+    assert np.abs(changed.ddq).max() < NEARLY * JOLT
+    assert np.abs(changed.base_acceleration[:, 2]).max() < 6  # [m/s^2] less than free fall: it can be walked
+    assert (walk.base - changed.base)[:, 2, 3].min() >= 0
+    assert (walk.base - changed.base)[:, 2, 3].max() < 0.065  # [m] and mostly less: the source tells
+    assert track.position_error.max() < FEET_MET
+    assert np.abs(soles(robot, changed)[0] - soles(robot, walk)[0])[standing(walk)].max() < GROUND
+
+
+def test_where_the_legs_reach_the_pelvis_stays(robot, walk):
+    for setting in ({"stride": 0.8}, {"clearance": 1.5}, {"stride": 1.0, "clearance": 1.0}):
+        changed, _ = edit.strided(robot, walk, **setting)
+        np.testing.assert_array_equal(changed.base, walk.base)
+        assert "lowered" not in changed.source
+    same, _ = edit.strided(robot, walk)
+    np.testing.assert_allclose(same.q, walk.q, atol=np.radians(0.01))
+
+
+def test_a_recorded_stride_is_scaled_like_a_repeated_one(robot, walk):
+    """Without events, and with ends: swings are found in the motion."""
+    gait = recording(walk)
+    bare = Gait(gait.time, gait.q, base=gait.base)
+    changed, _ = edit.strided(robot, bare, stride=1.1, clearance=1.3)
+    again, _ = edit.strided(robot, walk, stride=1.1, clearance=1.3)
+    n = len(walk)
+    assert np.abs(changed.q[n : 2 * n] - again.q).max() < np.radians(4)  # events differ by 5 % of the cycle
+    assert np.abs(changed.ddq).max() < 1.2 * JOLT  # its events come a few per cent earlier than the file's
 
 
 def test_what_the_legs_cannot_do_is_refused_with_how_far_they_miss(robot, walk):
-    with pytest.raises(ConvergenceError, match=r"cannot follow in .* frames; .* misses by .* mm"):
+    with pytest.raises(
+        ConvergenceError, match=r"cannot follow in .* frames; .* misses by .* mm .*ask for less"
+    ):
         edit.strided(robot, walk, stride=2.5)
     with pytest.raises(GaitError, match="0 to 3 is accepted"):
         edit.strided(robot, walk, clearance=9)

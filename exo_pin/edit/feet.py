@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
 from exo_pin import ik
-from exo_pin.anatomy import CORNERS, FEET
+from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.edit.check import JOLT
+from exo_pin.edit.pelvis import drop, softened
 from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
-from exo_pin.kinematics import poses
+from exo_pin.kinematics import events, poses
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
@@ -19,19 +22,19 @@ Array = npt.NDArray[np.float64]
 LARGEST = 3.0
 """Scale beyond which it is another walk."""
 
-RESTING = 0.04
-"""Over this height above its lowest [m] a sole's motion becomes a swing, wholly so above it."""
+SLACKS = (0.003, 0.006, 0.010, 0.015, 0.020, 0.030)
+"""What a leg keeps of its reach [m], knees of 10 to 30 degrees: the first at which no joint jolts."""
 
-DEEPEST = 0.10
-"""The pelvis is lowered no further than this [m] to let the legs reach a longer stride."""
+OFF = 0.005
+"""Where no events tell, a sole higher than this swings [m] ..."""
 
-SLACK = 0.01
-"""What the legs keep of their reach [m], or as little as they had: close to it a knee jerks."""
+SHORTEST = 0.15
+"""... if it does so for longer than this [s]."""
 
-ENOUGH = 1e-4
-"""Lowering by less than this [m] is not worth another round."""
+AT_LIMIT = 1e-6
+"""A joint this close to its limit is at it [rad]."""
 
-REACH = 0.005
+REACH = 0.002
 """A foot that misses its scaled path by more [m] is reported."""
 
 
@@ -41,9 +44,11 @@ def strided(
     """Scale the feet's paths against the pelvis, and find the joint angles by inverse kinematics.
 
     Forward and backward of each foot's mean place, the path is scaled by `stride`; the height of the sole
-    over the ground by `clearance`, where it is off the ground: standing feet stay on it. The feet's attitude
-    stays; a walk that gets along goes `stride` times as far. Where the legs are too short for a longer
-    stride, the pelvis is lowered evenly, up to 10 cm, and the source says how much.
+    over the ground in the middle of its swing by `clearance`, and less towards the swing's ends: standing
+    feet stay where they are. The feet's attitude stays; a walk that gets along goes `stride` times as far.
+    Where a leg would be longer than it was and nearly straight, the pelvis comes down, smoothly and only
+    there, up to 10 cm; how far the knee stays bent is chosen so that no joint accelerates beyond
+    `exo_pin.edit.check.JOLT`, where that can be had. The source says how far the pelvis came down.
 
     Args:
         robot: The robot, with a fixed base.
@@ -56,7 +61,7 @@ def strided(
 
     Raises:
         GaitError: A factor is negative or beyond 3, or the base of the robot floats.
-        ConvergenceError: The legs cannot follow: some foot misses its path by more than 5 mm.
+        ConvergenceError: The legs cannot follow: some foot misses its path by more than 2 mm.
     """
     for name, factor in (("stride", stride), ("clearance", clearance)):
         if not 0 <= factor <= LARGEST:
@@ -66,62 +71,119 @@ def strided(
     old = np.broadcast_to(robot.placement, (len(gait), 4, 4)) if gait.base is None else gait.base
     q = robot.from_gait(gait)
     feet = poses(robot, q, FEET, base=old)
-    lift = _lift(robot, q, old)
-    forward = _heading(old)
-    new = old.copy()
-    drift = _drift(old, gait.time) if not gait.periodic else np.zeros((len(gait), 3))
-    new[:, :3, 3] += (stride - 1) * drift
-    targets = feet.copy()
+    drift = (stride - 1) * (_drift(old, gait.time) if not gait.periodic else np.zeros((len(gait), 3)))
+    new, targets = old.copy(), feet.copy()
+    new[:, :3, 3] += drift
+    heading, lift = _heading(old), _lift(robot, gait, q, old)
     for k in range(len(FEET)):
-        ahead = np.einsum("ni,ni->n", feet[:, k, :3, 3] - old[:, :3, 3], forward)
-        shift = (stride - 1) * (ahead - ahead.mean())
-        targets[:, k, :3, 3] += shift[:, None] * forward + (stride - 1) * drift
+        ahead = np.einsum("ni,ni->n", feet[:, k, :3, 3] - old[:, :3, 3], heading)
+        targets[:, k, :3, 3] += (stride - 1) * (ahead - ahead.mean())[:, None] * heading + drift
         targets[:, k, 2, 3] += (clearance - 1) * lift[:, k]
-    asked = [{foot: T[:, k] for k, foot in enumerate(FEET)} for T in (feet, targets)]
-    slack = float(np.nanmin(ik.track(robot, asked[0], q, base=old).reach_slack))
-    track, lowered = _reached(robot, asked[1], q, new, min(slack, SLACK))
-    return _answer(robot, gait, track, new, f"stride x{stride:g}, clearance x{clearance:g}", lowered), track
+    what = f"stride x{stride:g}, clearance x{clearance:g}"
+    return _calmest(robot, gait, q, (feet, targets), (old, new), what)
 
 
-def _reached(
-    robot: Robot, paths: dict[str, Array], q: Array, base: Array, slack: float
-) -> tuple[ik.Track, float]:
-    """Joint angles for the feet's paths, the base lowered in place until the legs have that slack."""
-    lowered = 0.0
-    while True:
-        track = ik.track(robot, paths, q, base=base)
-        short = slack - float(np.nanmin(track.reach_slack))
-        step = min(short, DEEPEST - lowered)
-        if step < ENOUGH:
-            return track, lowered
-        base[:, 2, 3] -= step
-        lowered += step
+def _calmest(
+    robot: Robot,
+    gait: Gait,
+    q: Array,
+    feet: tuple[Array, Array],
+    base: tuple[Array, Array],
+    what: str,
+) -> tuple[Gait, ik.Track]:
+    """The walk for the feet's paths whose knees are bent as little as it takes for no joint to jolt."""
+    paths = {foot: feet[1][:, k] for k, foot in enumerate(FEET)}
+    step = gait.duration / (len(gait) - (not gait.periodic))
+    allowed = max(JOLT, float(np.abs(gait.ddq).max()))
+    tried: list[tuple[float, Gait, ik.Track]] = []
+    for slack in SLACKS:
+        down = softened(drop(robot, feet, base, slack), step, gait.periodic)
+        under = base[1].copy()
+        under[:, 2, 3] -= down
+        track = ik.track(robot, paths, q, base=under)
+        walk = _told(robot, gait, track, under, what, down)
+        tried.append((float(np.abs(walk.ddq).max()), walk, track))
+        if tried[-1][0] <= allowed or not down.any():
+            break
+    reached = [x for x in tried if np.nanmax(x[2].position_error) <= REACH] or tried[:1]
+    _, walk, track = min(reached, key=lambda x: x[0])
+    _check_reached(robot, track, what)
+    return walk, track
 
 
-def _answer(robot: Robot, gait: Gait, track: ik.Track, base: Array, what: str, lowered: float) -> Gait:
+def _check_reached(robot: Robot, track: ik.Track, what: str) -> None:
+    """Raises `ConvergenceError` if a foot misses its path."""
     worst = np.unravel_index(np.nanargmax(track.position_error), track.position_error.shape)
     miss = float(track.position_error[worst])
     if miss > REACH:
+        limits = _at_limits(robot, track.q[worst[0]])
         bad = int((track.position_error > REACH).any(axis=1).sum())
         raise ConvergenceError(
-            f"{what}: the legs cannot follow in {bad} frames; "
-            f"{track.frames[worst[1]]} misses by {miss * 1e3:.0f} mm in frame {worst[0]}; ask for less",
+            f"{what}: the legs cannot follow in {bad} frames; {track.frames[worst[1]]} misses by "
+            f"{miss * 1e3:.0f} mm in frame {worst[0]}{limits}; ask for less",
             track[int(worst[0])],
         )
-    words = f"{what} at the feet" + (f", pelvis lowered by {lowered * 1e3:.0f} mm" if lowered else "")
+
+
+def _at_limits(robot: Robot, q: Array) -> str:
+    """Which joints are at their limits, in words."""
+    angles = robot.angles(q)
+    ends = np.minimum(angles - robot.lower, robot.upper - angles) < AT_LIMIT
+    names = [joint for joint, end in zip(robot.joints, ends, strict=True) if end]
+    return f" with {', '.join(names)} at the limit" if names else ""
+
+
+def _told(robot: Robot, gait: Gait, track: ik.Track, base: Array, what: str, down: Array) -> Gait:
+    """The solver's answer as a walk whose source says what was done."""
+    lowered = f", pelvis lowered by up to {1e3 * down.max():.0f} mm, {1e3 * down.mean():.0f} in the mean"
+    words = f"{what} at the feet" + (lowered if down.max() > OFF / 10 else "")
     source = f"{gait.source}; {words}" if gait.source else words
-    moved = gait.base is not None or lowered > 0
+    moved = gait.base is not None or down.any()
     like = dataclasses.replace(gait, base=base) if moved else gait
     return dataclasses.replace(robot.to_gait(track.q, like), source=source)
 
 
-def _lift(robot: Robot, q: Array, base: Array) -> Array:
-    """`(n, 2)` how far each sole is off the ground [m]; 0 while it stands."""
+def _lift(robot: Robot, gait: Gait, q: Array, base: Array) -> Array:
+    """`(n, 2)` a bump over each swing, as high as the sole is off the ground in its middle [m]."""
     height = poses(robot, q, CORNERS, base=base)[..., 2, 3].reshape(len(q), len(FEET), -1).min(axis=2)
-    ground = np.percentile(height, 5, axis=0)
-    above = np.maximum(height - ground, 0.0)
-    part = np.minimum(above / RESTING, 1.0)
-    return np.asarray(above * part**2 * (3 - 2 * part))  # grows in smoothly, so the foot does not jerk
+    above = np.maximum(height - np.percentile(height, 5, axis=0), 0.0)
+    lift: Array = np.zeros(above.shape)
+    swings = _swings(robot, gait, above)
+    for k, side in enumerate(SIDES):
+        for start, end in swings[side]:
+            since, middle = gait.time - start, (start + end) / 2
+            if gait.periodic:  # around the end
+                since, middle = since % gait.duration, middle % gait.duration
+            share = (since / (end - start)).clip(0, 1)
+            high = np.interp(middle, gait.time, above[:, k])
+            lift[:, k] += high * 64 * (share * (1 - share)) ** 3  # two derivatives at rest at both ends
+    return lift
+
+
+def _swings(robot: Robot, gait: Gait, above: Array) -> dict[str, list[tuple[float, float]]]:
+    """Begin and end of every swing [s]: by the events, or where nobody knows them by the soles' heights."""
+    try:
+        known = gait.events or events(robot, gait)
+    except GaitError:
+        known = ()
+    swings: dict[str, list[tuple[float, float]]] = {side: [] for side in SIDES}
+    for k, side in enumerate(SIDES):
+        mine = [event for event in known if event.side == side]
+        if gait.periodic and mine:
+            mine.append(dataclasses.replace(mine[0], time=mine[0].time + gait.duration))
+        swings[side] = [
+            (a.time, b.time) for a, b in pairwise(mine) if (a.kind, b.kind) == ("toe_off", "heel_strike")
+        ]
+        if not swings[side]:
+            swings[side] = _off_ground(gait.time, above[:, k] > OFF)
+    return swings
+
+
+def _off_ground(time: Array, off: npt.NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """Spans of time in which a foot is off the ground, short ones left out."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], off, [False]]).astype(int))).reshape(-1, 2)
+    spans = ((float(time[a]), float(time[b - 1])) for a, b in edges)
+    return [(a, b) for a, b in spans if b - a > SHORTEST]
 
 
 def _heading(base: Array) -> Array:
