@@ -28,7 +28,10 @@ TINY = 1e-12
 """Deviations below are rounding."""
 
 EVEN = 1e-3
-"""How far samples may lie off an even grid, as a fraction of the step."""
+"""How far samples may lie off an even grid, as a fraction of the step ..."""
+
+ROUNDED = 1.1e-3
+"""... or this far [s]: files round times to milliseconds, the camera did not."""
 
 
 class Filled(NamedTuple):
@@ -194,6 +197,6 @@ def _rate(time: Array) -> float:
         raise GaitError(f"{len(time)} samples are too few to filter; 10 are accepted")
     step = float(time[-1] - time[0]) / (len(time) - 1)
     off = float(np.abs(time - time[0] - step * np.arange(len(time))).max())
-    if off > EVEN * step:
+    if off > max(EVEN * step, min(ROUNDED, step / 4)):
         raise GaitError(f"samples lie up to {off:.2g} s off an even grid; resample before filtering")
     return 1.0 / step

@@ -53,6 +53,15 @@ def test_what_cannot_be_filtered_is_refused(time, y, settings, match):
         signals.lowpass(time, y, **settings)
 
 
+@pytest.mark.parametrize("rate", [60.0, 120.0])
+def test_times_rounded_to_milliseconds_are_even_enough(rate):
+    t = np.arange(300) / rate
+    y = np.sin(2 * np.pi * t)
+    np.testing.assert_allclose(signals.lowpass(np.round(t, 3), y), signals.lowpass(t, y), atol=1e-4)
+    with pytest.raises(GaitError, match="off an even grid"):
+        signals.lowpass(np.round(t, 2), y)
+
+
 def test_gaps_are_filled_up_to_the_limit_only():
     y = np.sin(2 * np.pi * TIME)[:, None] * np.ones(2)
     holes = y.copy()
