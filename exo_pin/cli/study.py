@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import time
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -98,7 +100,8 @@ def run(args: argparse.Namespace) -> int:
     _check_names(args)
     cases, start = _plan(args), time.perf_counter()
     try:
-        done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
+        with _stoppable():
+            done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
     except KeyboardInterrupt:
         left = study.part(args.output)
         print(f"stopped; what is done is in {left}, and the same command goes on", file=sys.stderr)
@@ -110,6 +113,16 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print(facts, done)
     return (1 if done.rows else 2) if done.failures else 0
+
+
+@contextmanager
+def _stoppable() -> Iterator[None]:
+    """SIGTERM, which schedulers send before they kill, ends a study as Ctrl-C does."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _check_names(args: argparse.Namespace) -> None:

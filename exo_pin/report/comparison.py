@@ -69,7 +69,7 @@ def _summary(compared: Comparison) -> Section:
     )
     words = (
         f"{gait.source or 'The walk'}. Each device makes the best motion it can towards the recorded feet: "
-        "in every sample the least sum of squared distances of the sole corners, within its joint limits. "
+        "the least sum of squared distances of the sole corners, within the limits and speeds of its joints. "
         f"The pelvis {_PELVIS[compared.conditions.pelvis]}."
     )
     ranked = Table(table.COLUMNS, table.rows(compared), "Least loss first")
@@ -116,7 +116,7 @@ def _conditions(compared: Comparison, choices: Mapping[str, str]) -> Section:
             "passive joints",
             {"held": "held at zero", "released": "move as it suits the feet"}[granted.passive],
         ],
-        ["joint limits", "those that device and body both allow"],
+        ["joint limits and speeds", "those that device and body both allow; the device's"],
         *([] if body is None else [["body", f"{body.stature:.3f} m, {body.mass:.1f} kg, {body.sex}"]]),
         *([name, words] for name, words in choices.items()),
         ["made with", f"exo_pin {__version__}"],

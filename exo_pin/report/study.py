@@ -64,7 +64,7 @@ def _summary(rows: Sequence[Row], best: Sequence[Row], failures: Mapping[str, st
     )
     words = (
         "Each device makes the best motion it can towards the recorded feet: least squares over the corners "
-        "of the soles, within its joint limits. The sole error is what is left."
+        "of the soles, within the limits and speeds of its joints. The sole error is what is left."
     )
     table = Table(
         *summary(rows), "Sole error of the best motion, rms over a walk [mm]; mean and worst of all walks"
@@ -82,7 +82,7 @@ def _by_stature(rows: Sequence[Row]) -> Section:
     caption = (
         "Lines that lie on each other are drawn once, under all their names. Bodies of the same proportions "
         "under the same angles are similar figures, so the errors grow with the stature in proportion, as "
-        "long as no slide of a device comes to its end."
+        "long as no slide of a device comes to its end and no joint to its speed."
     )
     return Section("Against stature", (Figure(tuple(drawings), caption, columns=2),))
 
