@@ -319,6 +319,19 @@ def test_a_curve_is_drawn_where_its_numbers_are():
     np.testing.assert_allclose(points, [[x, y + height], [x + width, y + height / 2]], atol=0.01)
 
 
+def test_a_limit_off_the_axis_is_named_in_the_legend_all_the_same():
+    curve = chart.Curve([0, 1], [-1, 1], "#123456")
+
+    def legend(*ends):
+        levels = tuple(chart.Level(y, "#654321", "most", told=True) for y in ends)
+        drawing = chart.draw(chart.Chart(title="t", curves=(curve,), levels=levels, y_range=(-2, 2)))
+        return [e.text for e in elements(drawing, "text") if "most" in (e.text or "")]
+
+    assert legend(-1.5, 1.5) == ["most"]
+    assert legend(-1.5, 9.0) == ["most"]
+    assert legend(-9.0, 9.0) == ["most: off the axis"]
+
+
 def test_a_long_recording_is_thinned_for_drawing_only():
     x = np.linspace(0, 1, 50_001)
     drawing = chart.draw(chart.Chart(title="long", curves=(chart.Curve(x, x, "#123456"),)))

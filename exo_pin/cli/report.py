@@ -108,8 +108,9 @@ def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
         "scaling": "angles as given, on the body's own lengths; a normal walk's stride time follows the leg",
         "player": "left out" if args.no_player else f"{args.support} by the support, speed {args.speed:g}",
     }
-    more = {"units of the table": args.units, "marker set": args.markers, "static trial": args.static}
-    more |= {"torques": args.torques, "compared with": args.compare, "note on events": note}
+    more = {"units of the table": args.units, "marker set": args.markers, "note on events": note}
+    files = {"static trial": args.static, "torques": args.torques, "compared with": args.compare}
+    more |= {what: Path(name or "").name for what, name in files.items()}
     return chosen | {name: words for name, words in more.items() if words}
 
 

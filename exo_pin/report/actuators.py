@@ -48,7 +48,7 @@ def rates(robot: Robot, gait: Gait, found: Motion) -> Section:
         ),
         Figure(
             panels.by_movement(
-                gait, found.ddq, names, "acceleration", "rad/s²", limits=hardest, limit="design limit"
+                gait, found.ddq, names, "acceleration", "rad/s²", limits=hardest, limit="limit"
             )
         ),
         Table(columns, rows, "Peak rates against the actuators"),

@@ -9,15 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from exo_pin.report import svg
+from exo_pin.report import legend, svg
 from exo_pin.report.axis import extent, label, ticks
 
 Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 10.0, 26.0, 34.0
-_LEGEND_ROW = 15.0
 _MOST_POINTS = 2000  # of one curve: five for every pixel
-_LETTER = 5.6  # mean width of a letter at 10.5 px
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,11 +53,12 @@ class Span(NamedTuple):
 
 
 class Level(NamedTuple):
-    """A dashed horizontal line, e.g. a limit."""
+    """A dashed horizontal line, e.g. a limit; `told`: the legend names it even where it is off the axis."""
 
     y: float
     colour: str = svg.GREY
     label: str = ""
+    told: bool = False
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -121,8 +120,9 @@ class _Frame(NamedTuple):
 def draw(chart: Chart) -> str:
     """The chart as one `<svg>` that scales to the width it is given."""
     frame = _frame(chart)
-    legend, rows = _legend(chart, frame)
-    height = frame.top + frame.height + _BOTTOM + _LEGEND_ROW * rows
+    top = frame.top + frame.height + _BOTTOM
+    keys, rows = legend.rows(_marks(chart, frame), frame.left, top, chart.width)
+    height = top + legend.ROW * rows
     clip = f"c{zlib.crc32(repr(frame).encode()):x}"  # the same area has the same name, and that is harmless
     inner = [*_spans(chart, frame), *_bands(chart, frame), *_levels(chart, frame), *_curves(chart, frame)]
     area = {"x": frame.left, "y": frame.top, "width": frame.width, "height": frame.height}
@@ -131,7 +131,7 @@ def draw(chart: Chart) -> str:
         svg.text(frame.left - 2, 15, chart.title, font_size=12.5, font_weight=600),
         *_axes(chart, frame),
         svg.tag("g", "".join(inner), clip_path=f"url(#{clip})"),
-        *legend,
+        *keys,
     ]
     return svg.drawing(chart.width, height, parts, chart.title)
 
@@ -218,31 +218,23 @@ def _thinned(points: Array) -> Array:
     return points[:: -(-len(points) // _MOST_POINTS) or 1]
 
 
-def _legend(chart: Chart, frame: _Frame) -> tuple[list[str], int]:
-    """Keys below the axis, and how many rows they take."""
-    keys = {c.label: ("line", c) for c in chart.curves if c.label}
-    marks: dict[str, str] = {
-        name: svg.line([[0, 0], [16, 0]], c.colour, stroke_width=max(c.width, 1.6), stroke_dasharray=c.dash)
-        for name, (_, c) in keys.items()
-    }
-    for band in chart.bands:
-        marks[band.label] = _swatch(band.colour, band.opacity)
+def _marks(chart: Chart, frame: _Frame) -> dict[str, str]:
+    """What the legend explains: words -> a small mark."""
+    marks = {c.label: _dash(c.colour, c.dash, max(c.width, 1.6)) for c in chart.curves}
+    marks |= {band.label: _swatch(band.colour, band.opacity) for band in chart.bands}
+    seen = {level.label for level in chart.levels if frame.y[0] <= level.y <= frame.y[1]}
     for level in chart.levels:
-        if frame.y[0] <= level.y <= frame.y[1]:
-            marks[level.label] = svg.line([[0, 0], [16, 0]], level.colour, stroke_dasharray="2 3")
-    for span in chart.spans:
-        marks[span.label] = _swatch(span.colour, 0.12 if span.lane is None else 0.75)
+        if level.label in seen:
+            marks[level.label] = _dash(level.colour, "2 3", 1.6)
+        elif level.told:
+            marks[f"{level.label}: off the axis"] = _dash(level.colour, "2 3", 1.6)
+    marks |= {span.label: _swatch(span.colour, 0.12 if span.lane is None else 0.75) for span in chart.spans}
     marks.pop("", None)
-    parts, row, x = [], 0, frame.left
-    for name, mark in marks.items():
-        width = 22 + _LETTER * len(name) + 12
-        if x > frame.left and x + width > chart.width:
-            row, x = row + 1, frame.left
-        y = frame.top + frame.height + _BOTTOM + 10 + _LEGEND_ROW * row
-        parts.append(svg.tag("g", mark, transform=f"translate({svg.number(x)} {svg.number(y - 3.5)})"))
-        parts.append(svg.text(x + 21, y, name, font_size=10.5))
-        x += width
-    return parts, row + 1 if parts else 0
+    return marks
+
+
+def _dash(colour: str, dash: str | None, width: float) -> str:
+    return svg.line([[0, 0], [16, 0]], colour, stroke_width=width, stroke_dasharray=dash)
 
 
 def _swatch(colour: str, opacity: float) -> str:

@@ -14,7 +14,7 @@ from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
 
-_EXACT = 1e-9  # [s] off an even grid: rounding
+_EXACT = 1e-6  # [s] off an even grid: rounding
 
 
 @dataclass(frozen=True, eq=False)

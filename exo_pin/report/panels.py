@@ -96,14 +96,14 @@ def by_movement(
             Curve(time, closed[:, names.index(j)], svg.COLOURS[j.split("_")[0]], j.split("_")[0])
             for j in mine
         ]
-        ends = {sign * limits[joint] for joint in mine if joint in limits for sign in (-1, 1)}
+        ends = {limits[joint] for joint in mine if joint in limits}
         title = f"{TITLES[movement].removesuffix(' [deg]')} {what} [{unit}]"
         chart = Chart(
             title=title,
             x_label="time [s]",
             curves=tuple(curves),
             spans=stances(gait),
-            levels=tuple(Level(end, LIMIT, limit) for end in sorted(ends)),
+            levels=tuple(Level(y, LIMIT, f"{limit} ±{end:g}", True) for end in ends for y in (-end, end)),
             least=least,
             height=170,
         )

@@ -31,8 +31,8 @@ def ranges(robot: Robot, gait: Gait) -> Section:
         "min deg",
         "max deg",
         "range deg",
-        "lower limit",
-        "upper limit",
+        "lower limit deg",
+        "upper limit deg",
         "margin deg",
         "frames outside",
     )
