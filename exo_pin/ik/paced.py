@@ -31,7 +31,7 @@ _FEW = 40  # samples that are settled without a coarser motion first
 _ROUNDS = 10  # Newton steps within a quadratic model
 _STEPS = 60  # Newton steps for each price
 _STILL = 1e-6  # a step this small changes nothing any more [rad, m]
-_WEAK = 1e-7  # nor does such a share of the cost
+_WEAK = 1e-6  # nor does such a share of the cost
 _DAMPING, _CALMER, _STRONGER = 1e-3, 0.25, 4.0
 
 
