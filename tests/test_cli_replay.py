@@ -1,0 +1,124 @@
+"""`exo-pin replay` as a process: its first frame, its warnings, and what it leaves behind."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+
+import pytest
+from tornado.websocket import websocket_connect
+
+from exo_pin import cache, viewer
+from exo_pin.cli import recent, replay
+from exo_pin.gait import normative_gait
+from exo_pin.robot import load_robot
+from exo_pin.viewer.bundle import bundle
+
+PATIENCE = 30.0  # [s]: what a busy machine may take
+
+
+def arguments(*words):
+    parser = argparse.ArgumentParser()
+    replay.configure(parser)
+    return parser.parse_args(words)
+
+
+@contextmanager
+def replaying(folder, *words):
+    """A running `exo-pin replay`; its temporary files and its cache are in the folder."""
+    for name in ("tmp", "cache"):
+        (folder / name).mkdir(exist_ok=True)
+    environment = os.environ | {"TMPDIR": str(folder / "tmp"), cache.VARIABLE: str(folder / "cache")}
+    command = [sys.executable, "-m", "exo_pin", "replay", "--no-open", *words]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, env=environment, **pipes) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def said(process):
+    """What it prints until it serves."""
+    lines = [process.stdout.readline()]
+    while "Ctrl-C ends it" not in lines[-1]:
+        assert lines[-1], process.stderr.read()
+        lines.append(process.stdout.readline())
+    return "".join(lines)
+
+
+def first_messages(port, count):
+    async def run():
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                page = await websocket_connect(f"ws://127.0.0.1:{port}/live")
+                break
+            except OSError:
+                assert time.monotonic() < end
+                await asyncio.sleep(0.01)
+        heard = [await asyncio.wait_for(page.read_message(), PATIENCE) for _ in range(count)]
+        page.close()
+        await page.read_message()
+        return heard
+
+    return asyncio.run(run())
+
+
+@pytest.fixture
+def free_port():
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return probe.getsockname()[1]
+
+
+def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, monkeypatch, free_port):
+    monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
+    older = bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
+    recent.keep(arguments("--no-wearer"), older)
+    with replaying(tmp_path, "--port", str(free_port), "--no-wearer") as process:
+        first, second = first_messages(free_port, 2)
+        assert first == b"\0" + older
+        assert second[1:] != older
+        said(process)
+    assert recent.recall(arguments("--no-wearer")) == second[1:]
+
+
+def test_other_arguments_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
+    monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
+    body = tmp_path / "body.toml"
+    body.write_text("stature = 1.7\n")
+    recent.keep(arguments("--body", str(body)), b"picture")
+    assert recent.recall(arguments("--body", str(body))) == b"picture"
+    assert recent.recall(arguments("--body", str(body), "--port", "80", "--no-open")) == b"picture"
+    assert recent.recall(arguments("--body", str(body), "slow")) is None
+    body.write_text("stature = 1.71\n")
+    assert recent.recall(arguments("--body", str(body))) is None
+
+
+def test_a_taken_port_and_an_open_door_are_said_and_nothing_is_left(tmp_path):
+    with socket.create_server(("0.0.0.0", 0)) as taken:
+        port = taken.getsockname()[1]
+        with replaying(tmp_path, "--port", str(port), "--host", "0.0.0.0", "--no-wearer") as process:
+            text = said(process)
+            assert f":{port}/" not in text
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(PATIENCE) == 0
+            warnings = process.stderr.read()
+    assert f"port {port} is in use" in warnings
+    assert "no password" in warnings
+    assert list((tmp_path / "tmp").iterdir()) == []
+    assert not [file for file in (tmp_path / "cache").iterdir() if file.name.startswith(".")]
+
+
+def test_bad_input_is_said_before_anything_is_served(tmp_path):
+    with replaying(tmp_path, "--port", "0", "no_such_file.csv") as process:
+        assert process.wait(PATIENCE) == 2
+        assert "http" not in process.stdout.read()
+        assert "no_such_file.csv" in process.stderr.read()
