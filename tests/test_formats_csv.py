@@ -266,3 +266,12 @@ def test_every_format_brings_back_the_walk(walk, tmp_path, suffix):
         save_gait(gait, tmp_path / f"walk{suffix}")
         same(load_gait(tmp_path / f"walk{suffix}"), gait)
     assert len(JOINTS) == gait.q.shape[1]
+
+
+def test_somebody_elses_table_and_files_without_motion_say_what_to_do(tmp_path):
+    (tmp_path / "poses.csv").write_text("time,pelvis_px,pelvis_py\n0,1,2\n1,1,2\n")
+    with pytest.raises(FormatError, match=r"columns \(time, pelvis_px.* are not ours .*needs a mapping"):
+        load_gait(tmp_path / "poses.csv")
+    for name, match in (("a.osim", "holds no motion; name it as the model"), ("a.xml", "a setup holds no")):
+        with pytest.raises(FormatError, match=match):
+            load_gait(tmp_path / name)

@@ -74,6 +74,15 @@ MARKER_FORMATS: Mapping[str, Callable[[Path], Markers]] = MappingProxyType(
 """File name ending -> reader of a marker trial."""
 
 
+NO_MOTION = MappingProxyType(
+    {
+        ".osim": "an OpenSim model holds no motion; name it as the model of a .mot or .sto file",
+        ".xml": "a setup holds no motion; name the .mot or .trc file that it works on",
+    }
+)
+"""File name ending -> why there is nothing to read."""
+
+
 def load_gait(
     path: str | Path,
     *,
@@ -138,6 +147,8 @@ def save_gait(gait: Gait, path: str | Path) -> None:
 
 
 def _format(path: Path, known: Mapping[str, Format]) -> Format:
+    if path.suffix.lower() in NO_MOTION:
+        raise FormatError(path, NO_MOTION[path.suffix.lower()])
     if path.suffix.lower() not in known:
         raise FormatError(
             path, f"unknown kind of file {path.suffix!r}; a gait file ends in {', '.join(known)}"

@@ -73,8 +73,8 @@ def by_habit(order: Sequence[str] | None = None) -> Convention:
     """
     if order is not None and sorted(order) != sorted(TURNS):
         raise UnknownNameError("order of turns", ",".join(order), (f"{','.join(TURNS)} in any order",))
-    how = f"in the {'usual ' * (order is None)}order {', '.join(order or TURNS)}"
-    said = f"pelvis turned {how}, with a generic model's mid-hip (an .osim file would tell both)"
+    how = f"the {'usual ' * (order is None)}order {', '.join(order or TURNS)}"
+    said = f"pelvis in {how} with a generic mid-hip, as no model (.osim) is given"
     return Convention((usual(order or tuple(TURNS)),), said=said)
 
 

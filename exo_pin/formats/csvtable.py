@@ -65,9 +65,12 @@ def _check_separator(path: Path, header: str, required: Sequence[str], line: int
 
 
 def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: int) -> None:
-    for name in names:
-        if name in known:
-            continue
+    strange = [name for name in names if name not in known]
+    if len(strange) == len(names):
+        shown, ours = (", ".join(words[:4])[:200] for words in (names, known))
+        why = f"its columns ({shown} ...) are not ours ({ours} ...)"
+        raise FormatError(path, f"{why}; a foreign table needs a mapping: its column = our joint", line=line)
+    for name in strange:
         close = difflib.get_close_matches(name[:80], known, n=1)
         foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: its column = our joint)"
         hint = f"did you mean {close[0]!r}?" if close else foreign
