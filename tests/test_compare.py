@@ -23,6 +23,7 @@ from exo_pin.robot import load_robot
 GAIT = normative_gait().resampled(16)
 BODY = Body.from_stature()
 EXACT = 1e-8  # ten times what the solver is asked for, in metres
+SETTLED = 1e-6  # metres: two ways to one smooth minimum, at a speed limit perhaps
 
 
 @pytest.fixture(scope="module")
@@ -232,3 +233,76 @@ def test_replay_shows_a_device_and_tells_what_it_misses(tmp_path, capsys):
     assert "mm rms" in said
     assert page.stat().st_size > 100_000
     assert main(["replay", "--device", "hk4", "--hip-order", "yaw_roll_pitch", "--html", str(page)]) == 2
+
+
+def test_losses_do_not_depend_on_where_the_walk_goes():
+    turn, there = np.radians(130), np.eye(4)
+    there[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    there[:3, 3] = 3.0, -2.0, 0.0
+    elsewhere = dataclasses.replace(GAIT, base=there @ GAIT.base)
+    for pelvis in ("recorded", "device"):
+        here, away = (
+            compare(gait, ["lopes8"], conditions=Conditions(pelvis)).best[0] for gait in (GAIT, elsewhere)
+        )
+        assert away.sole_error == pytest.approx(here.sole_error, abs=SETTLED)
+        assert away.com_shift == pytest.approx(here.com_shift, abs=SETTLED)
+        assert away.step_width == pytest.approx(here.step_width, abs=SETTLED)
+        assert away.clearance == pytest.approx(here.clearance, abs=SETTLED)
+
+
+def _moved(loss, *, feet=(0.0, 0.0, 0.0), com=(0.0, 0.0, 0.0), turn=0.0):
+    """The recorded walk with the left foot and the centre of mass moved by hand, as a loss."""
+    recorded = loss.walk
+    T = np.array(recorded.feet)
+    T[:, 0, :3, 3] += feet
+    c, s = np.cos(turn), np.sin(turn)
+    T[:, 0, :3, :3] = T[:, 0, :3, :3] @ [[c, -s, 0], [s, c, 0], [0, 0, 1]]
+    motion = dataclasses.replace(
+        loss.motion, feet=T, corners=corners(recorded.robot, T), com=recorded.com + np.array(com)
+    )
+    return dataclasses.replace(loss, motion=motion)
+
+
+def test_errors_are_those_of_feet_moved_by_hand(held):
+    loss = held.best[0]
+    aside = _moved(loss, feet=(0.0, 0.01, 0.0))
+    assert aside.position_error == pytest.approx(np.tile([0.01, 0.0], (16, 1)))
+    assert aside.rms == pytest.approx(0.01 / np.sqrt(2))
+    assert aside.rotation_error == pytest.approx(0, abs=EXACT)
+    assert aside.step_width_lost == pytest.approx(-0.01)  # the left foot went left: a wider walk
+    assert aside.clearance_lost == pytest.approx(0, abs=EXACT)
+    turned = _moved(loss, turn=0.2)
+    assert turned.rotation_error == pytest.approx(np.tile([0.2, 0.0], (16, 1)))
+    assert turned.position_error == pytest.approx(0, abs=EXACT)
+    assert _moved(loss, com=(0.0, 0.0, 0.003)).com_shift == pytest.approx(np.tile([0, 0, 0.003], (16, 1)))
+    assert _moved(loss, com=(0.01, 0.0, 0.02)).com_error == pytest.approx(np.sqrt(5) / 100)
+
+
+def test_a_foot_that_swings_lower_loses_clearance(held):
+    loss = held.best[0]
+    left, right = (loss.walk.corners[..., 2].min(axis=-1)[:, k] for k in range(2))
+    swing = masks(loss.walk.gait, "left")["mid swing"]
+    other = masks(loss.walk.gait, "right")["mid swing"]
+    by_hand = min((left - 0.005 - right)[swing].min(), (right - left + 0.005)[other].min())
+    assert _moved(loss, feet=(0.0, 0.0, -0.005)).clearance == pytest.approx(by_hand)
+
+
+def test_phases_hold_the_errors_of_their_samples(held):
+    loss = _loss(held, "lokomat")
+    for errors in (loss.sole_error, loss.position_error, loss.rotation_error):
+        squares, count = 0.0, 0
+        for name, value in loss.in_phases(errors).items():
+            samples = sum(int(masks(loss.walk.gait, side)[name].sum()) for side in ("left", "right"))
+            squares, count = squares + samples * value**2, count + samples
+        assert count == 32
+        assert squares / count == pytest.approx(np.mean(errors**2))
+
+
+def test_angle_change_and_ranges_are_those_of_the_motion(held):
+    loss = _loss(held, "lopes7")
+    knees = [loss.walk.gait.q[:, JOINTS.index(f"{s}_knee_flexion")] for s in ("left", "right")]
+    mine = [loss.motion.q[:, loss.motion.robot.column(f"{s}_knee_flexion")] for s in ("left", "right")]
+    assert loss.angle_change["knee_flexion"] == pytest.approx(np.abs(np.array(mine) - knees).max())
+    low, high, at_limit = loss.ranges["left_knee_flexion"]
+    assert (low, high) == (mine[0].min(), mine[0].max())
+    assert at_limit == (mine[0] < 1e-9).sum()

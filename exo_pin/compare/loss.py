@@ -59,14 +59,18 @@ class Loss:
         """Root mean square of `sole_error` over both feet and the walk [m]: what devices are ranked by."""
         return root_mean_square(self.sole_error)
 
+    def in_phases(self, errors: Array) -> dict[str, float]:
+        """Root mean square of errors (n, 2) in each phase of the foot's own cycle; NaN without events."""
+        parts = [masks(self.walk.gait, side) for side in SIDES]
+        return {
+            name: root_mean_square(np.concatenate([errors[parts[k][name], k] for k in range(2)]))
+            for name in parts[0]
+        }
+
     @cached_property
     def by_phase(self) -> dict[str, float]:
         """Root mean square of `sole_error` in each phase of the foot's own cycle [m]; NaN without events."""
-        parts = [masks(self.walk.gait, side) for side in SIDES]
-        return {
-            name: root_mean_square(np.concatenate([self.sole_error[parts[k][name], k] for k in range(2)]))
-            for name in parts[0]
-        }
+        return self.in_phases(self.sole_error)
 
     @property
     def step_width(self) -> float:
@@ -104,10 +108,17 @@ class Loss:
             for j, joint in enumerate(robot.joints)
         }
 
+    @cached_property
+    def com_shift(self) -> Array:
+        """The centre of mass less the recorded walk's (n, 3) [m]: forward, left, up in the mean heading."""
+        forward = heading(self.walk)
+        axes = np.array([[*forward, 0.0], [-forward[1], forward[0], 0.0], [0.0, 0.0, 1.0]])
+        return np.asarray((self.motion.com - self.walk.com) @ axes.T)
+
     @property
     def com_error(self) -> float:
         """Root mean square distance of the centre of mass from the recorded walk's [m]."""
-        return root_mean_square(np.linalg.norm(self.motion.com - self.walk.com, axis=1))
+        return root_mean_square(np.linalg.norm(self.com_shift, axis=1))
 
     def facts(self) -> dict[str, Any]:
         """Plain numbers for JSON; millimetres and degrees as the names say, None where events are missing."""
@@ -115,21 +126,31 @@ class Loss:
             joint: {"min": low, "max": high, "samples_at_limit": n}
             for joint, (low, high, n) in self.ranges.items()
         }
+        degree = float(np.degrees(1.0))
         return {
             "device": self.device.name,
             "motors": self.device.motors,
             "sole_error_mm": _spread(self.sole_error, 1e3),
             "position_error_mm": _spread(self.position_error, 1e3),
-            "rotation_error_deg": _spread(self.rotation_error, float(np.degrees(1.0))),
-            "sole_error_by_phase_mm": {name: number(1e3 * x) for name, x in self.by_phase.items()},
+            "rotation_error_deg": _spread(self.rotation_error, degree),
+            "sole_error_by_phase_mm": self._phases(self.sole_error, 1e3),
+            "position_error_by_phase_mm": self._phases(self.position_error, 1e3),
+            "rotation_error_by_phase_deg": self._phases(self.rotation_error, degree),
             "step_width_mm": number(1e3 * self.step_width),
             "step_width_lost_mm": number(1e3 * self.step_width_lost),
             "clearance_mm": number(1e3 * self.clearance),
             "clearance_lost_mm": number(1e3 * self.clearance_lost),
             "angle_change_deg": {m: float(np.degrees(x)) for m, x in self.angle_change.items()},
             "com_error_mm": 1e3 * self.com_error,
+            "com_error_along_mm": {
+                way: 1e3 * root_mean_square(self.com_shift[:, i])
+                for i, way in enumerate(("forward", "left", "up"))
+            },
             "joint_ranges_rad": ranges,
         }
+
+    def _phases(self, errors: Array, scale: float) -> dict[str, float | None]:
+        return {name: number(scale * x) for name, x in self.in_phases(errors).items()}
 
 
 def root_mean_square(values: Array) -> float:
@@ -137,13 +158,19 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
+def heading(recorded: Walk) -> Array:
+    """Mean direction in which the pelvis looks, on the ground (2,)."""
+    forward = recorded.base[:, :2, 0].mean(axis=0)
+    return np.asarray(forward / np.linalg.norm(forward))
+
+
 def step_width(recorded: Walk, feet: Array) -> float:
     """Sideways distance of the feet at the recorded heel strikes, across the mean heading [m]."""
     strikes = [e.time for e in recorded.gait.events if e.kind == "heel_strike"]
     if not strikes:
         return float("nan")
-    forward = recorded.base[:, :2, 0].mean(axis=0)
-    across = np.array([-forward[1], forward[0]]) / np.linalg.norm(forward)
+    forward = heading(recorded)
+    across = np.array([-forward[1], forward[0]])
     rows = [int(np.argmin(np.abs(recorded.gait.time - t))) for t in strikes]
     return float(np.mean((feet[rows, 0, :2, 3] - feet[rows, 1, :2, 3]) @ across))
 
