@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.anatomy import Body
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
 from exo_pin.retarget.machine import Machine
@@ -35,9 +36,11 @@ class Retargeted:
         q: Joint values (n, nq), foot by foot, within the robot's limits [rad].
         copied: Joint values (n, nq), joint by joint, not cut to the limits [rad].
         base: T_world_root (n, 4, 4): how the robot's root goes, its height still to be fitted to the ground.
+        lean: How far the person's pelvis leans forward on average, which the robot's hips take over [rad].
         scale: Robot's paths over the person's, left and right.
         ankles: Where the ankles shall be (n, 2, 3), in the walker's axes at the robot's root [m].
         attitudes: How the feet shall be turned (n, 2, 3, 3), in the same axes.
+        body: Whose walk it is.
     """
 
     machine: Machine
@@ -45,9 +48,11 @@ class Retargeted:
     q: Array
     copied: Array
     base: Array
+    lean: float
     scale: tuple[float, float]
     ankles: Array
     attitudes: Array
+    body: Body
 
     @property
     def target(self) -> Target:
@@ -115,6 +120,7 @@ class Retargeted:
             "samples": len(self.gait),
             "joints_per_leg": len(self.machine.legs[0].joints),
             "hip_order": self.machine.legs[0].hip_order,
+            "lean_deg": math.degrees(self.lean),
             "scale": list(self.scale),
             "foot_by_foot": _residuals(*self.errors),
             "samples_missed": int(self.missed.any(axis=1).sum()),

@@ -25,6 +25,8 @@ class Target:
         stand: Joint angles [rad] at which the robot stands on straight legs with level feet; zero for others.
         limits: Joint limits [rad] to be used instead of the file's.
         title: For people.
+        paint: Colour and opacity to show it in; None: its own colours.
+        licence: Whose files they are and under which licence, as example-robot-data says.
         remarks: What to know.
     """
 
@@ -36,6 +38,8 @@ class Target:
     stand: Mapping[str, float] = field(default_factory=dict)
     limits: Mapping[str, Pair] = field(default_factory=dict)
     title: str = ""
+    paint: tuple[float, float, float, float] | None = None
+    licence: str = ""
     remarks: str = ""
 
 
@@ -54,12 +58,17 @@ TALOS = Target(
     "talos_data/robots/talos_reduced.urdf",
     feet=("leg_left_6_link", "leg_right_6_link"),
     title="TALOS (PAL Robotics)",
+    licence="PAL Robotics, Apache-2.0",
 )
 ROMEO = Target(
     "romeo",
     "romeo_description/urdf/romeo_small.urdf",
     feet=("l_ankle", "r_ankle"),
+    stand=MappingProxyType(
+        {"LShoulderPitch": 1.5, "RShoulderPitch": 1.5, "LElbowYaw": -0.4, "RElbowYaw": 0.4}
+    ),
     title="Romeo (Aldebaran)",
+    licence="LAAS-CNRS, BSD",
 )
 ICUB = Target(
     "icub",
@@ -67,12 +76,14 @@ ICUB = Target(
     feet=("l_ankle_2", "r_ankle_2"),
     forward="-x",
     title="iCub (IIT)",
+    licence="robotology's icub-models, CC-BY-SA-4.0",
 )
 G1 = Target(
     "g1",
     "g1_description/urdf/g1_29dof_rev_1_0.urdf",
     feet=("left_ankle_roll_link", "right_ankle_roll_link"),
     title="G1 (Unitree)",
+    licence="Unitree, BSD-3-Clause",
     remarks="The hip's roll and yaw axes are inclined by 10 degrees and its three axes do not meet: the "
     "paths are scaled to what the legs reach in every direction.",
 )
@@ -84,6 +95,7 @@ SIMPLE_HUMANOID = Target(
         {"HIP_Y": (-20.0, 90.0), "HIP_R": (-30.0, 30.0), "ANKLE_R": (-30.0, 30.0)},
     ),
     title="simple humanoid (Gepetto team)",
+    licence="LAAS-CNRS, BSD-2-Clause",
     remarks="The file's leg limits have slipped from joint to joint (the left knee has -120 .. 40 degrees, "
     "both ankles 0 .. 150). Used instead: the file's own pairs of numbers at the joints where they fit and "
     "where TALOS has them, and +-30 degrees for hip and ankle roll. The file has no "
@@ -94,14 +106,17 @@ HUMAN = Target(
     "human_description/robots/human.urdf",
     feet=("left_foot", "right_foot"),
     up="y",
+    paint=(0.80, 0.66, 0.56, 1.0),
     title="human_description (Gepetto team)",
-    remarks="A person with ISB joints; its root link has y up.",
+    licence="Gepetto team, BSD-2-Clause",
+    remarks="A person with ISB joints; its root link has y up, and its garish colours are not shown.",
 )
 BOLT = Target(
     "bolt",
     "bolt_description/robots/bolt.urdf",
     feet=("FL_FOOT", "FR_FOOT"),
     title="Bolt (Open Dynamic Robot Initiative)",
+    licence="Open Dynamic Robot Initiative, BSD-3-Clause",
     remarks="Three joints per leg and point feet: the feet's places are met, their attitude is not; without "
     "hip rotation and ankles, these are dropped.",
 )

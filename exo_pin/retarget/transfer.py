@@ -1,8 +1,9 @@
 """Retargeting: foot by foot through inverse kinematics, and joint by joint through the hips' rotation.
 
 The feet's paths are seen from the pelvis and scaled, hip to ankle, by the ratio of the legs' reaches; the
-feet keep their attitude. Joint by joint copies the angles: the hip's three, and the ankle's two, through
-their rotation onto the robot's own axes, whatever their order.
+feet keep their attitude in the world. A person's pelvis leans forward, a robot's trunk does not: what the
+pelvis leans on average goes into the robot's hips. Joint by joint copies the angles: the hip's three (with
+that lean) and the ankle's two through their rotation onto the robot's own axes, whatever their order.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
-from exo_pin.retarget.axes import turns
+from exo_pin.retarget.axes import about, turns
 from exo_pin.retarget.legs import RobotLeg
 from exo_pin.retarget.machine import Machine, load, ready
 from exo_pin.retarget.result import Retargeted
@@ -62,14 +63,15 @@ def retarget(
     """
     machine = _machine(robot)
     walker = load_robot(body)
-    T = _limbs(gait, walker)
+    lean = _lean(gait)
+    T = _limbs(gait, walker, lean)
     copied = _copied(gait, machine, T[..., :3, :3])
     assert walker.body is not None  # load_robot made it
     own = [walker.body.leg(side) for side in SIDES]
     ratios = [leg.reach / (size.thigh + size.shank) for leg, size in zip(machine.legs, own, strict=True)]
     best: Retargeted | None = None
     for share in SHRINKING:
-        tried = _solved(gait, walker, machine, T, (share * ratios[0], share * ratios[1]), copied)
+        tried = _solved(gait, walker, machine, T, (share * ratios[0], share * ratios[1]), copied, lean)
         if best is None or tried.missed.sum() < best.missed.sum():
             best = tried
         if not best.missed.any():
@@ -80,7 +82,7 @@ def retarget(
 
 def joint_by_joint(gait: Gait, machine: Machine, body: Body | None = None) -> Array:
     """The walk's own angles on a robot's joints (n, nq), hips and ankles through their rotation [rad]."""
-    return _copied(gait, machine, _limbs(gait, load_robot(body))[..., :3, :3])
+    return _copied(gait, machine, _limbs(gait, load_robot(body), _lean(gait))[..., :3, :3])
 
 
 def _machine(robot: str | Path | Target | Robot) -> Machine:
@@ -91,17 +93,39 @@ def _machine(robot: str | Path | Target | Robot) -> Machine:
     return ready(Target(robot.name, ""), robot)
 
 
-def _limbs(gait: Gait, walker: Robot) -> Array:
-    """Poses (n, 2, 3, 4, 4) of thigh, shank and foot of both legs, seen from the pelvis."""
+def _lean(gait: Gait) -> float:
+    """How far the pelvis is tilted forward on average [rad]."""
+    if gait.base is None:
+        return 0.0
+    R = gait.base[:, :3, :3]
+    return float(np.arctan2(-R[:, 2, 0].mean(), R[:, 2, 2].mean()))
+
+
+def _limbs(gait: Gait, walker: Robot, lean: float) -> Array:
+    """Poses (n, 2, 3, 4, 4) of thigh, shank and foot of both legs, seen from a pelvis set upright."""
     names = [f"{side}_{link}" for side in SIDES for link in ("thigh", "shank", "sole_plate")]
     T = poses(walker, walker.from_gait(gait), names, base=np.eye(4))
-    return T.reshape(len(gait), 2, 3, 4, 4)
+    return np.asarray(_tilt(lean) @ T.reshape(len(gait), 2, 3, 4, 4))
+
+
+def _tilt(lean: float) -> Array:
+    """A pose (4, 4) that is turned forward, about the axis to the left."""
+    T = np.eye(4)
+    T[:3, :3] = about(np.array([0.0, 1.0, 0.0]), np.array([lean]))[0]
+    return T
 
 
 def _solved(
-    gait: Gait, walker: Robot, machine: Machine, T: Array, scale: tuple[float, float], copied: Array
+    gait: Gait,
+    walker: Robot,
+    machine: Machine,
+    T: Array,
+    scale: tuple[float, float],
+    copied: Array,
+    lean: float,
 ) -> Retargeted:
     """Foot by foot, the paths from hip to ankle scaled."""
+    assert walker.body is not None  # load_robot made it
     ankles = np.stack(
         [
             leg.hip + s * (T[:, k, 2] - T[:, k, 0])[:, :3, 3]
@@ -122,10 +146,12 @@ def _solved(
         gait=gait,
         q=q,
         copied=copied,
-        base=_base(gait, walker, machine, scale),
+        base=_base(gait, walker, machine, scale, lean),
+        lean=lean,
         scale=scale,
         ankles=ankles,
         attitudes=R,
+        body=walker.body,
     )
 
 
@@ -156,11 +182,11 @@ def _copied(gait: Gait, machine: Machine, R: Array) -> Array:
     return q
 
 
-def _base(gait: Gait, walker: Robot, machine: Machine, scale: tuple[float, float]) -> Array:
+def _base(gait: Gait, walker: Robot, machine: Machine, scale: tuple[float, float], lean: float) -> Array:
     """T_world_root (n, 4, 4): the middle of the hips goes the pelvis's way, scaled, and turns as it."""
     pelvis = np.tile(walker.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
     T = np.array(pelvis, dtype=float)
-    T[:, :3, :3] = pelvis[:, :3, :3] @ machine.turn.T
+    T[:, :3, :3] = pelvis[:, :3, :3] @ _tilt(-lean)[:3, :3] @ machine.turn.T
     hips = machine.turn @ (machine.legs[0].hip + machine.legs[1].hip) / 2
     T[:, :3, 3] = np.mean(scale) * pelvis[:, :3, 3] - T[:, :3, :3] @ hips
     return T

@@ -11,19 +11,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from exo_pin.viewer.compiler import scene
+    from exo_pin.viewer.compiler import retargeted, scene
     from exo_pin.viewer.export import html
     from exo_pin.viewer.facts import Scene
     from exo_pin.viewer.notebook import View, view
     from exo_pin.viewer.server import Server, serve
 
-__all__ = ["Scene", "Server", "View", "html", "scene", "serve", "view"]
+__all__ = ["Scene", "Server", "View", "html", "retargeted", "scene", "serve", "view"]
 
 _HOMES = {
     "Scene": "facts",
     "Server": "server",
     "View": "notebook",
     "html": "export",
+    "retargeted": "compiler",
     "scene": "compiler",
     "serve": "server",
     "view": "notebook",

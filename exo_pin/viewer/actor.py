@@ -44,7 +44,7 @@ class Actor:
 def exoskeleton(robot: Robot, shown: Motion, tree: Linkage) -> Actor:
     """The exoskeleton in the shown motion."""
     chain = Chain("exo", tree.root, tree.links, tree.turns, "q", "base")
-    return Actor(tree.commands, chain, _samples(robot, shown, tree, ""), Group("Exoskeleton", tree.looks))
+    return Actor(tree.commands, chain, samples(robot, shown, tree, ""), Group("Exoskeleton", tree.looks))
 
 
 def ghost(robot: Robot, gait: Gait, style: str, root: str, title: str) -> Actor:
@@ -53,7 +53,7 @@ def ghost(robot: Robot, gait: Gait, style: str, root: str, title: str) -> Actor:
     tree = linkage(robot.urdf, root, paint=GHOST)
     chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
     return Actor(
-        tree.commands, chain, _samples(robot, shown, tree, "ghost_"), Group(f"Ghost: {title}", tree.looks)
+        tree.commands, chain, samples(robot, shown, tree, "ghost_"), Group(f"Ghost: {title}", tree.looks)
     )
 
 
@@ -102,7 +102,8 @@ def flat_poses(T: Array) -> Array:
     return rows
 
 
-def _samples(robot: Robot, shown: Motion, tree: Linkage, prefix: str) -> dict[str, Array]:
+def samples(robot: Robot, shown: Motion, tree: Linkage, prefix: str) -> dict[str, Array]:
+    """The arrays of a chain: joint values in the order of its turns, and base poses."""
     angles = dict(zip(robot.joints, shown.q.T, strict=True))
     still = np.zeros(len(shown.time))
     q = np.stack([angles.get(turn.name, still) for turn in tree.turns], axis=1)

@@ -1,7 +1,4 @@
-"""COLLADA files: triangles where the scene puts them, in the diffuse colours of their materials.
-
-As ROS's tools do, the unit is applied and `up_axis` is not.
-"""
+"""COLLADA files: triangles where the scene puts them, in the diffuse colours of their materials."""
 
 from __future__ import annotations
 
@@ -23,8 +20,10 @@ DEEPEST = 50
 """Nodes of a scene that are nested deeper are refused: a real one has a handful."""
 
 
-def parts(data: bytes) -> list[Triangles]:
-    """Vertices `(v, 3)` [m], faces `(f, 3)` and colour of each primitive of the scene.
+def parts(data: bytes) -> tuple[list[Triangles], bool]:
+    """Vertices `(v, 3)` [m], faces `(f, 3)` and colour of each primitive; whether the file has y up.
+
+    The unit is applied, the `up_axis` is not: ROS's tools ignore it, others apply it.
 
     Raises:
         ValueError: Something in the file does not fit.
@@ -32,7 +31,8 @@ def parts(data: bytes) -> list[Triangles]:
         xml.etree.ElementTree.ParseError: It is no XML.
     """
     text = re.sub(rb'\sxmlns="[^"]*"', b"", data, count=1)  # names without their namespace
-    return list(_Document(ET.fromstring(text)).triangles())
+    document = _Document(ET.fromstring(text))
+    return list(document.triangles()), document.root.findtext("asset/up_axis", "").strip() == "Y_UP"
 
 
 class _Document:

@@ -10,15 +10,18 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import FEET, SIDES
 from exo_pin.gait import Gait, Torques
+from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
 from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost
 from exo_pin.viewer.cycles import cycles
 from exo_pin.viewer.facts import Facts, Grip, Group, Marks, Scene
+from exo_pin.viewer.humanoid import humanoid
 from exo_pin.viewer.links import Linkage, linkage
 from exo_pin.viewer.motion import Motion, motion
+from exo_pin.viewer.play import Play
 from exo_pin.viewer.wearer import wearer as person
-from exo_pin.viewer.world import ROOT, boxes, world
+from exo_pin.viewer.world import ROOT, boxes, mounts, world
 
 Array = NDArray[np.float64]
 
@@ -43,7 +46,9 @@ def scene(
     """Everything that the viewer shows of a walk, as one value.
 
     Args:
-        robot: The exoskeleton.
+        robot: The exoskeleton, or any robot with two legs (from `load_urdf`), to which the walk is retargeted
+            then; reference, torques and wearer are the exoskeleton's alone, and `retargeted` shows a walk of
+            somebody else's than the default body.
         gait: The motion to show, e.g. what inverse kinematics recovered.
         reference: Curves to draw dashed beside it, e.g. the source's.
         reference_title: What the dashed curves are.
@@ -62,6 +67,11 @@ def scene(
         GaitError: The torques belong to another time.
         ExoPinError: The wearer's figure is not installed.
     """
+    if not set(FEET) <= set(robot.frames):
+        walk = retarget(gait, robot)
+        return retargeted(
+            walk, compare=compare, compare_title=compare_title, support=support, notes=notes, speed=speed
+        )
     shown = motion(robot, gait, support)
     exo = linkage(robot.urdf, f"{ROOT}/exo")
     actors = [exoskeleton(robot, shown, exo)]
@@ -74,25 +84,64 @@ def scene(
     if wearer and robot.body is not None and robot.body.wearer:
         actors.append(person(robot.body, exo.links, f"{ROOT}/wearer", gait, shown.base))
         top = robot.body.stature - robot.body.leg_length
-    drawings, marks = world(robot, gait, shown, exo)
-    tabs = curves.of_gait(robot, gait, reference, torques)
+    play = Play(
+        robot=robot,
+        gait=gait,
+        shown=shown,
+        actors=tuple(actors),
+        mounts=mounts(robot, shown, exo),
+        grips=tuple(Grip(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in exo.links),
+        tabs=curves.of_gait(robot, gait, reference, torques),
+        reference="" if reference is None else reference_title,
+        top=top,
+        notes=(*_notes(exo, actors), *curves.notes(torques)),
+    )
+    return _compiled(play, title, notes, speed)
+
+
+def retargeted(
+    walk: Retargeted,
+    *,
+    compare: Gait | None = None,
+    compare_title: str = "compared",
+    title: str = "",
+    support: str = "carried",
+    notes: Iterable[str] = (),
+    speed: float = 1.0,
+) -> Scene:
+    """Everything that the viewer shows of a walk on another robot; arguments as in `scene`.
+
+    The robot wears its own meshes, thinned, where its package has them; the curves are its leg joints' own,
+    dashed as the walk's angles ask for them joint by joint.
+
+    Raises:
+        UnknownNameError: There is no such support.
+    """
+    play = humanoid(walk, support, compare, compare_title)
+    return _compiled(play, title or f"{walk.target.title or walk.target.name} gait", notes, speed)
+
+
+def _compiled(play: Play, title: str, notes: Iterable[str], speed: float) -> Scene:
+    """The scene of a play: the world around it, and all that the page is told."""
+    gait, shown, actors = play.gait, play.shown, play.actors
+    drawings, marks = world(gait, shown, play.mounts)
     facts = Facts(
         title=title,
         subtitle=_subtitle(gait),
-        notes=tuple(dict.fromkeys((*notes, *_notes(shown, exo, actors), *curves.notes(torques)))),
+        notes=tuple(dict.fromkeys((*notes, *_ground(shown), *play.notes))),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
         cycles=cycles(gait),
         stance=shown.stance,
         contact="contact (estimated)" if shown.estimated else "foot contact",
-        reference="" if reference is None else reference_title,
+        reference=play.reference,
         chains=tuple(actor.chain for actor in actors),
-        grips=tuple(Grip(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in exo.links),
-        plots=curves.groups(tabs),
+        grips=play.grips,
+        plots=curves.groups(play.tabs),
         groups=_groups(actors, marks),
         marks=marks,
-        boxes=boxes(shown, top),
+        boxes=boxes(shown, play.top),
         follow=shown.support.overground,
         speed=speed,
         twins=tuple(pair for actor in actors for pair in actor.twins),
@@ -100,7 +149,7 @@ def scene(
         lights=furniture.PLAIN_LIGHTS,
     )
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
-    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(tabs)), robot)
+    return Scene(facts, commands, _arrays(shown, actors, curves.arrays(play.tabs)), play.robot)
 
 
 def _subtitle(gait: Gait) -> str:
@@ -108,10 +157,15 @@ def _subtitle(gait: Gait) -> str:
     return ", ".join(filter(None, (gait.source, f"{gait.duration:.2f} s {kind}")))
 
 
-def _notes(shown: Motion, exo: Linkage, actors: list[Actor]) -> list[str]:
+def _ground(shown: Motion) -> list[str]:
     notes = [shown.support.note]
     if shown.estimated:
         notes.append("The gait has no contact events: contact is estimated from the lowest sole corners.")
+    return notes
+
+
+def _notes(exo: Linkage, actors: Iterable[Actor]) -> list[str]:
+    notes = []
     if exo.skipped:
         notes.append(f"{exo.skipped} visuals of the URDF are meshes and are not drawn.")
     if any(actor.chain.name == "wearer" for actor in actors):
@@ -121,7 +175,7 @@ def _notes(shown: Motion, exo: Linkage, actors: list[Actor]) -> list[str]:
     return notes
 
 
-def _groups(actors: list[Actor], marks: Marks) -> tuple[Group, ...]:
+def _groups(actors: Iterable[Actor], marks: Marks) -> tuple[Group, ...]:
     soles = tuple(path.rsplit("/", 1)[0] for path in marks.contact.values())
     groups = [
         *(actor.group for actor in actors),
@@ -133,7 +187,7 @@ def _groups(actors: list[Actor], marks: Marks) -> tuple[Group, ...]:
 
 
 def _arrays(
-    shown: Motion, actors: list[Actor], lines: dict[str, Array]
+    shown: Motion, actors: Iterable[Actor], lines: dict[str, Array]
 ) -> dict[str, NDArray[np.floating[Any]]]:
     arrays = {"time": shown.time, "com": shown.com, **lines}
     for actor in actors:

@@ -183,11 +183,20 @@ def centre_of_mass(path: str) -> list[Command]:
     ]
 
 
-def contact_sole(path: str, size: tuple[float, float], center: tuple[float, float, float]) -> list[Command]:
-    """A green plate around a sole, shown while the foot stands; length and width [m], centre in the link."""
+def contact_sole(
+    path: str, size: tuple[float, float], center: tuple[float, float, float], T: Array
+) -> list[Command]:
+    """A green plate around a sole, shown while the foot stands.
+
+    Args:
+        path: Node below the foot's.
+        size: Length and width [m].
+        center: In the sole's own axes [m].
+        T: Pose of these axes in the foot's node (4, 4).
+    """
     green = Material((0.21, 0.78, 0.35, 1.0), 0.6, 0.0, glow=0.25)
     length, width = size
-    return [draw(path, box((length, width, 0.016)), green), place(path, translation(*center))]
+    return [draw(path, box((length, width, 0.016)), green), place(path, T @ translation(*center))]
 
 
 def _unit(v: Array) -> Array:

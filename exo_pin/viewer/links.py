@@ -213,14 +213,14 @@ class _Nesting:
         self.link(child, turn)
 
     def material(self, visual: ET.Element, color: solids.Color | None = None) -> Material:
-        """The URDF's own look, or a mesh's colour where the URDF names none."""
+        """A mesh's own colour, else what the URDF says."""
         if self.paint is not None:
             return self.paint
         element = visual.find("material")
         name = "" if element is None else element.get("name", "")
         own = None if element is None else _rgba(element)
         roughness, metalness = FINISHES.get(name, PLAIN)
-        return Material(own or self.colors.get(name) or color or GREY, roughness, metalness)
+        return Material(color or own or self.colors.get(name) or GREY, roughness, metalness)
 
 
 def _solid(geometry: ET.Element | None) -> Solid | None:

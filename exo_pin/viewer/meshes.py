@@ -38,7 +38,15 @@ MANY = 3_000_000
 class Meshes:
     """Reads the meshes of one URDF; what cannot be had is counted in `missing`, with a reason."""
 
-    def __init__(self, urdf: Path | None, size: float) -> None:
+    def __init__(self, urdf: Path | None, size: float, *, turned: bool = False) -> None:
+        """Read on demand.
+
+        Args:
+            urdf: The URDF's path; None: it has no meshes.
+            size: Of the robot [m].
+            turned: Apply COLLADA's `up_axis`: what has y up is turned to z up.
+        """
+        self.turned, self.y_up = turned, False
         self.urdf = None if urdf is None else Path(os.path.realpath(urdf))
         self.cell = size / FINENESS
         self.missing: dict[str, str] = {}
@@ -55,6 +63,7 @@ class Meshes:
         except FormatError as error:
             self.missing[name] = error.why
             return []
+        self.y_up = self.y_up or any(part.y_up for part in parts)
         self.triangles += sum(len(part.faces) for part in parts)
         if self.triangles > MANY:
             self.missing[name] = f"more than {MANY} triangles in all"
@@ -67,7 +76,7 @@ class Meshes:
             return None
         scheme, mark, rest = name.partition("://")
         if mark and scheme == "package":
-            package, _, inside = rest.partition("/")
+            package, _, inside = rest.lstrip("/").partition("/")
             tried = [(root, root / inside) for root in _packages(self.urdf, package)]
         elif mark and scheme != "file":
             return None
@@ -80,7 +89,10 @@ class Meshes:
         return None
 
     def _light(self, part: meshfiles.Part, scale: Triple) -> Solid:
-        vertices = part.vertices * np.array(scale)
+        vertices = part.vertices
+        if part.y_up and self.turned:
+            vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)
+        vertices = vertices * np.array(scale)
         faces = part.faces if np.prod(scale) > 0 else part.faces[:, ::-1]
         return shaded(*thinned(vertices, faces, self._cell(vertices)))
 

@@ -33,11 +33,13 @@ class Part:
         vertices: `(v, 3)` in the file's own unit, scaled to metres where the file tells it.
         faces: `(f, 3)` rows of vertices.
         color: Red, green, blue, opacity, or None where the file names none.
+        y_up: Whether the file says that its y points up; most tools do not care.
     """
 
     vertices: Array
     faces: Faces
     color: Color | None = None
+    y_up: bool = False
 
 
 def read(path: Path) -> list[Part]:
@@ -102,7 +104,8 @@ def dae(data: bytes) -> list[Part]:
     """A COLLADA file."""
     from exo_pin.viewer.collada import parts
 
-    return [Part(vertices, faces, color) for vertices, faces, color in parts(data)]
+    found, y_up = parts(data)
+    return [_used(vertices, faces, color, y_up) for vertices, faces, color in found]
 
 
 READERS: Mapping[str, Callable[[bytes], list[Part]]] = MappingProxyType(
@@ -121,6 +124,12 @@ def _welded(corners: Array) -> Part:
     keys = np.ascontiguousarray(corners.astype("<f4")).view([("", "<f4")] * 3).ravel()
     _, first, index = np.unique(keys, return_index=True, return_inverse=True)
     return Part(corners[first], index.reshape(-1, 3).astype(np.int64))
+
+
+def _used(vertices: Array, faces: Faces, color: Color | None, y_up: bool) -> Part:
+    """Without the vertices that no face uses."""
+    kept, index = np.unique(faces, return_inverse=True)
+    return Part(vertices[kept], index.reshape(-1, 3).astype(np.int64), color, y_up)
 
 
 def _within(part: Part) -> bool:

@@ -59,8 +59,25 @@ def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
     q = at_rest(robot, robot.from_gait(gait))
     back = np.linalg.inv(robot.placement)
     T_pelvis = back @ poses(robot, q, (*FEET, *CORNERS))  # (n, 10, 4, 4)
-    com_pelvis = _moved(back, center_of_mass(robot, q).position)
+    com_pelvis = moved(back, center_of_mass(robot, q).position)
     given = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
+    return stood(gait, robot.angles(q), given, T_pelvis, com_pelvis, style)
+
+
+def stood(gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array, style: str) -> Motion:
+    """Stand any walker on the ground.
+
+    Args:
+        gait: Whose time and events the walk has.
+        q: `(n, J)` joint values in the order of `Robot.joints` [rad].
+        given: `(n, 4, 4)` pose of the pelvis (or root link) as given.
+        T_pelvis: `(n, 10, 4, 4)` poses of `FEET` and `CORNERS` seen from there.
+        com_pelvis: `(n, 3)` centre of mass seen from there [m].
+        style: How the pelvis is carried, one of `support.STYLES`.
+
+    Raises:
+        UnknownNameError: There is no such style.
+    """
     corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = contact.from_events(gait)
     stance = known or contact.estimated(gait, contact.lowest_corners(corners))
@@ -69,11 +86,11 @@ def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
     shown = base[:, None] @ T_pelvis
     return Motion(
         time=gait.time - gait.time[0],
-        q=robot.angles(q),
+        q=q,
         base=base,
         feet=shown[:, : len(FEET)],
         corners=shown[:, len(FEET) :, :3, 3],
-        com=_moved(base, com_pelvis),
+        com=moved(base, com_pelvis),
         stance=stance,
         estimated=known is None,
         support=carried,
@@ -89,6 +106,7 @@ def at_rest(robot: Robot, q: Array) -> Array:
     return q
 
 
-def _moved(T: NDArray[np.floating[Any]], points: Array) -> Array:
+def moved(T: NDArray[np.floating[Any]], points: Array) -> Array:
+    """Points `(..., 3)` by poses `(..., 4, 4)`."""
     out: Array = (T[..., :3, :3] @ points[..., None])[..., 0] + T[..., :3, 3]
     return out

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,8 +26,39 @@ TRACE_POINTS = 400
 """A foot's path is drawn through at most this many points."""
 
 
-def world(robot: Robot, gait: Gait, shown: Motion, exo: Linkage) -> tuple[list[Command], Marks]:
-    """All drawings but the figures, and the nodes among them that the page moves."""
+@dataclass(frozen=True, eq=False)
+class Mount:
+    """Where a green sole hangs.
+
+    Attributes:
+        node: Path of the foot's node.
+        T: Pose of the sole's own axes there (4, 4): x forward, z up.
+        size: Length and width of the sole [m].
+        center: Its middle in its own axes [m].
+    """
+
+    node: str
+    T: Array
+    size: tuple[float, float]
+    center: tuple[float, float, float]
+
+
+def mounts(robot: Robot, shown: Motion, exo: Linkage) -> tuple[Mount, ...]:
+    """Left and right sole of the exoskeleton."""
+    nodes = [exo.links[foot] for foot in FEET]
+    return tuple(
+        Mount(node, np.eye(4), *_sole(robot, shown, side)) for node, side in zip(nodes, SIDES, strict=True)
+    )
+
+
+def world(gait: Gait, shown: Motion, feet: Sequence[Mount]) -> tuple[list[Command], Marks]:
+    """All drawings but the figures, and the nodes among them that the page moves.
+
+    Args:
+        gait: Whose duration it is.
+        shown: The walk as shown.
+        feet: Left and right.
+    """
     commands = furniture.studio()
     belt, ground = None, 0.0
     if not shown.support.overground:
@@ -35,8 +69,9 @@ def world(robot: Robot, gait: Gait, shown: Motion, exo: Linkage) -> tuple[list[C
     commands += furniture.centre_of_mass(f"{ROOT}/marks/com")
     contact = {}
     for k, side in enumerate(SIDES):
-        contact[side] = f"{exo.links[FEET[k]]}/contact/sole"
-        commands += furniture.contact_sole(contact[side], *_sole(robot, shown, side))
+        foot = feet[k]
+        contact[side] = f"{foot.node}/contact/sole"
+        commands += furniture.contact_sole(contact[side], foot.size, foot.center, foot.T)
         path, color = _thinned(shown.feet[:, k, :3, 3]), furniture.SIDE_COLORS[side]
         commands.append(furniture.trace(f"{ROOT}/traces/{side}", path, color, closed=gait.periodic))
     return commands, Marks(f"{ROOT}/marks/com/ball", f"{ROOT}/marks/com/disc", 0.003, contact, belt)
@@ -44,7 +79,7 @@ def world(robot: Robot, gait: Gait, shown: Motion, exo: Linkage) -> tuple[list[C
 
 def boxes(shown: Motion, above_hips: float) -> dict[str, Box]:
     """What the cameras frame: the whole figure up to a height above the hips [m], and the feet."""
-    y, z = shown.base[0, 1:3, 3].tolist()
+    y, z = float(shown.base[: 1 if shown.support.overground else None, 1, 3].mean()), float(shown.base[0, 2, 3])
     here = shown.corners[: 1 if shown.support.overground else len(shown.corners), :, 0]
     low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
     bottom, top = (0.0 if shown.support.overground else -furniture.DECK), z + above_hips

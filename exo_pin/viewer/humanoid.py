@@ -1,0 +1,228 @@
+"""Any robot with two legs on the stage: its own meshes, its feet on the ground, its leg joints' curves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.gait import Gait
+from exo_pin.kinematics import center_of_mass, poses
+from exo_pin.retarget import Machine, Retargeted, retarget
+from exo_pin.viewer import curves, solids
+from exo_pin.viewer.actor import GHOST, Actor, aligned, samples
+from exo_pin.viewer.facts import Chain, Grip, Group
+from exo_pin.viewer.links import GREY, Linkage, linkage
+from exo_pin.viewer.meshes import Meshes
+from exo_pin.viewer.motion import Motion, moved, stood
+from exo_pin.viewer.play import Play
+from exo_pin.viewer.protocol import Material, draw, mesh, place, translation
+from exo_pin.viewer.soles import Sole, soles
+from exo_pin.viewer.world import ROOT, Mount
+
+Array = NDArray[np.float64]
+
+WHOLE = 6
+"""Legs of so many joints follow the hand with place and attitude."""
+
+HEADROOM = 0.06
+"""The picture reaches so far above the robot's highest point [m]."""
+
+DIP = 0.005
+"""Tips of feet that are less deep in the ground than this need no words [m]."""
+
+PLATE = 0.02
+"""Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""
+
+
+def humanoid(
+    result: Retargeted, support: str = "carried", compare: Gait | None = None, compare_title: str = "compared"
+) -> Play:
+    """A retargeted walk as it is to be shown.
+
+    Args:
+        result: The walk on the robot.
+        support: How the root is carried, as in `viewer.scene`.
+        compare: A second walk, shown as a ghost.
+        compare_title: What the ghost is.
+
+    Raises:
+        UnknownNameError: There is no such support.
+    """
+    machine = result.machine
+    tree, meshes = _tree(machine, f"{ROOT}/exo", _paint(machine.target.paint))
+    feet = soles(machine, tree.shapes)
+    shown = _motion(result, feet, support)
+    actors = [_actor(result, shown, tree, feet)]
+    if compare is not None:
+        second = retarget(aligned(result.gait, compare), machine.target, result.body)
+        actors.append(_ghost(second, feet, support, compare_title))
+    whole = all(len(leg.joints) == WHOLE for leg in machine.legs)
+    return Play(
+        robot=machine.robot,
+        gait=result.gait,
+        shown=shown,
+        actors=tuple(actors),
+        mounts=tuple(_mount(tree, sole) for sole in feet),
+        grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs) if whole else (),
+        tabs=_tabs(result),
+        reference="joint by joint",
+        top=_top(machine, tree) + HEADROOM,
+        notes=(*_notes(result, meshes, tree), *_dips(shown, feet)),
+    )
+
+
+def _tree(machine: Machine, root: str, paint: Material | None) -> tuple[Linkage, Meshes]:
+    """The robot's links with their looks.
+
+    Where COLLADA files say that y is up, some tools turn them and some do not, and robots are made for the
+    ones or the others: what is taken is where the meshes cover the joints of their links better.
+    """
+    tried = []
+    for turned in (False, True):
+        meshes = Meshes(machine.robot.path, _height(machine), turned=turned)
+        tree = linkage(machine.robot.urdf, root, paint=paint, meshes=meshes)
+        if not meshes.y_up:
+            return tree, meshes
+        tried.append((_apart(machine, tree), turned, tree, meshes))
+    *_, tree, meshes = min(tried, key=lambda one: one[:2])
+    return tree, meshes
+
+
+def _apart(machine: Machine, tree: Linkage) -> float:
+    """How far the joints that hang on links lie outside of the boxes around their looks, in sum [m]."""
+    robot, apart = machine.robot, 0.0
+    for joint in robot.joints:
+        index = robot.model.frames[robot.frame(joint)].parentFrame
+        link = str(robot.model.frames[index].name)
+        if link in tree.shapes:
+            T_link, T_joint = poses(robot, machine.stand, (link, joint))
+            place = moved(np.linalg.inv(T_link), T_joint[:3, 3])
+            corners = tree.shapes[link].vertices
+            outside = np.maximum(corners.min(axis=0) - place, place - corners.max(axis=0))
+            apart += float(np.maximum(outside, 0.0).sum())
+    return apart
+
+
+def _paint(color: solids.Color | None) -> Material | None:
+    return None if color is None else Material(color, 0.6, 0.0)
+
+
+def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion:
+    machine = result.machine
+    T = poses(machine.robot, result.q, [sole.link for sole in feet]) @ np.array([sole.T for sole in feet])
+    corners = np.tile(np.eye(4), (len(T), 2, 4, 1, 1))
+    for k, sole in enumerate(feet):
+        corners[:, k, :, :3, 3] = sole.corners @ np.swapaxes(T[:, k, :3, :3], -1, -2) + T[:, k, None, :3, 3]
+    seen = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
+    com = center_of_mass(machine.robot, result.q).position
+    return stood(result.gait, machine.robot.angles(result.q), result.base, seen, com, support)
+
+
+def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
+    """The robot; only its legs' joints have sliders."""
+    legs = set(result.joints)
+    turns = tuple(turn if turn.name in legs else replace(turn, limits=None) for turn in tree.turns)
+    chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
+    plates = [sole for sole in feet if sole.link not in tree.shapes and _bare(result.machine, sole, tree)]
+    commands = (*tree.commands, *(command for sole in plates for command in _plate(tree, sole)))
+    looks = (*tree.looks, *(f"{tree.links[sole.link]}/plate" for sole in plates))
+    title = result.target.title or result.target.name
+    return Actor(commands, chain, samples(result.robot, shown, tree, ""), Group(title, looks))
+
+
+def _ghost(result: Retargeted, feet: tuple[Sole, Sole], support: str, title: str) -> Actor:
+    shown = _motion(result, feet, support)
+    tree, _ = _tree(result.machine, f"{ROOT}/ghost", GHOST)
+    chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
+    arrays = samples(result.robot, shown, tree, "ghost_")
+    return Actor(tree.commands, chain, arrays, Group(f"Ghost: {title}", tree.looks))
+
+
+def _mount(tree: Linkage, sole: Sole) -> Mount:
+    length, width = sole.size
+    x, y = sole.middle
+    return Mount(tree.links[sole.link], sole.T, (length + 0.007, width + 0.009), (x, y, 0.006))
+
+
+def _bare(machine: Machine, sole: Sole, tree: Linkage) -> bool:
+    """Whether nothing is drawn of a foot, with its fixed parts."""
+    model = machine.robot.model
+    joint = model.frames[machine.robot.frame(sole.link)].parentJoint
+    return not any(frame.parentJoint == joint and frame.name in tree.shapes for frame in model.frames)
+
+
+def _plate(tree: Linkage, sole: Sole) -> list[dict[str, object]]:
+    """A plate for a foot that has no looks."""
+    length, width = sole.size
+    solid = solids.box((length, width, PLATE))
+    x, y = sole.middle
+    path = f"{tree.links[sole.link]}/plate"
+    return [
+        draw(path, mesh(solid.vertices, solid.faces, solid.normals), Material(GREY, 0.6, 0.1)),
+        place(path, sole.T @ translation(x, y, PLATE / 2)),
+    ]
+
+
+def _tabs(result: Retargeted) -> tuple[curves.Tab, ...]:
+    """The leg joints' own curves; dashed: joint by joint."""
+    time, joints = result.time - result.time[0], result.joints
+    solved = curves.of_robot(result.robot, time, result.q, joints)
+    copied = curves.of_robot(result.robot, time, result.copied, joints)
+    return tuple(
+        replace(tab, reference=other.values, reference_time=time)
+        for tab, other in zip(solved, copied, strict=True)
+    )
+
+
+def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
+    facts = result.facts()
+    target = result.target
+    place = facts["foot_by_foot"]["position_error_mm_max"]
+    turn = facts["foot_by_foot"]["rotation_error_deg_max"]
+    legs = f"{facts['joints_per_leg']} joints per leg, hip {facts['hip_order']}"
+    lean = f"the trunk is upright, the hips take over {facts['lean_deg']:.1f} degrees of the pelvis's lean"
+    notes = [
+        f"{target.title or target.name}: {legs}; the feet's paths are {np.mean(result.scale):.2f} times the "
+        f"person's, missed by {place:.2f} mm and {turn:.1f} degrees at most; {lean}. "
+        "Dashed: the person's angles joint by joint.",
+        target.remarks,
+        f"Its looks: {target.licence}, thinned." if target.licence and meshes.triangles else "",
+    ]
+    if tree.skipped:
+        name, why = next(iter(meshes.missing.items()), ("a visual", "of no known kind"))
+        notes.append(f"{tree.skipped} visuals of the URDF are not drawn ({name}: {why}).")
+    return [note for note in notes if note]
+
+
+def _dips(shown: Motion, feet: tuple[Sole, Sole]) -> list[str]:
+    """How deep the tips of rigid feet get below the ground, where a person's toes would bend."""
+    low = 0.0
+    for k, sole in enumerate(feet):
+        tip = np.array([sole.tip, *sole.middle[1:], 0.0])
+        low = min(low, float(moved(shown.feet[:, k], tip)[:, 2].min()))
+    if low > -DIP:
+        return []
+    return [
+        "The rigid feet have no toes: where a person's would bend, their tips are up to "
+        f"{-1e3 * low:.0f} mm below the ground."
+    ]
+
+
+def _height(machine: Machine) -> float:
+    """From the lowest to the highest joint, standing [m]; at least twice the legs."""
+    robot = machine.robot
+    T = poses(robot, machine.stand, robot.joints)
+    return max(float(np.ptp((T[:, :3, 3] @ machine.turn)[:, 2])), 2 * machine.legs[0].reach)
+
+
+def _top(machine: Machine, tree: Linkage) -> float:
+    """The highest point of the robot above its root, standing [m]."""
+    links = list(tree.shapes)
+    if not links:
+        return 0.0
+    T = poses(machine.robot, machine.stand, links)
+    up = machine.turn[:, 2]
+    rows = zip(links, T, strict=True)
+    return max(float((moved(pose, tree.shapes[link].vertices) @ up).max()) for link, pose in rows)
