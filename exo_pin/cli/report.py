@@ -109,7 +109,12 @@ def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
         "player": "left out" if args.no_player else f"{args.support} by the support, speed {args.speed:g}",
     }
     more = {"units of the table": args.units, "marker set": args.markers, "note on events": note}
-    files = {"static trial": args.static, "torques": args.torques, "compared with": args.compare}
+    files = {
+        "static trial": args.static,
+        "OpenSim model": args.model,
+        "torques": args.torques,
+        "compared with": args.compare,
+    }
     more |= {what: Path(name or "").name for what, name in files.items()}
     return chosen | {name: words for name, words in more.items() if words}
 

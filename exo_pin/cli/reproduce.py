@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import io
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show
+from exo_pin.cli import options, show, trials
 from exo_pin.errors import ExoPinError, FormatError
 from exo_pin.files import write_bytes, write_text
 
@@ -26,7 +27,8 @@ Writes reproduction.html (one self-contained page), reproduction.md, and every f
 The 3-D pictures need Chromium; without it line drawings take their place, and the page says so."""
 
 _POSES = 10
-_SIZE = (300, 460)
+_POSE = (300, 460)  # pixels of one of the poses
+_MODEL = (1200, 900)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -45,6 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--no-render", action="store_true", help="line drawings instead of the browser's pictures"
     )
     parser.add_argument("--quality", default="high", help="of the browser's pictures: high (default) or low")
+    trials.add(parser)
     options.add_body(parser)
 
 
@@ -60,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     gait = normative_gait("free", leg_length=body.leg_length)
     recording = None
     if args.gait is not None:
-        recording, _ = options.with_events(robot, options.load(args.gait, body, preset=args.preset))
+        recording, _ = options.with_events(robot, options.gait_from(args, body))
     folder = _folder(args.output)
     with show.busy("drawing"):
         document = report.reproduction(
@@ -100,27 +103,25 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
         return Rendered()
     scene = viewer.scene(robot, gait, title="the walk")
     look: dict[str, Any] = {"quality": args.quality}
+    phases = [k / _POSES for k in range(_POSES)]
     try:
-        model = film.picture(scene, size=(1200, 900), **look)
-        moving = film.film(
-            scene, Path("poses.gif"), camera="left", size=_SIZE, fps=_POSES / scene.facts.duration, **look
-        )
+        model = film.picture(scene, size=_MODEL, **look)
+        poses = film.pictures(scene, phases, camera="left", size=_POSE, **look)
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
         return Rendered()
-    return Rendered(model=model, poses=_sheet(moving))
+    return Rendered(model=model, poses=_sheet(poses))
 
 
-def _sheet(moving: bytes) -> bytes:
-    """The frames of a film side by side in two rows, as PNG."""
-    from PIL import Image, ImageSequence
+def _sheet(shots: Sequence[bytes]) -> bytes:
+    """Pictures side by side in two rows, as PNG."""
+    from PIL import Image
 
-    frames = [frame.convert("RGB") for frame in ImageSequence.Iterator(Image.open(io.BytesIO(moving)))]
-    half = (len(frames) + 1) // 2
-    width, height = frames[0].size
+    half = (len(shots) + 1) // 2
+    width, height = _POSE
     sheet = Image.new("RGB", (half * width, 2 * height), "white")
-    for k, frame in enumerate(frames):
-        sheet.paste(frame, (k % half * width, k // half * height))
+    for k, shot in enumerate(shots):
+        sheet.paste(Image.open(io.BytesIO(shot)), (k % half * width, k // half * height))
     file = io.BytesIO()
     sheet.save(file, "PNG", optimize=True)
     return file.getvalue()

@@ -17,13 +17,13 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--torques",
         metavar="FILE",
-        help="joint torques of the walk, for a further tab of curves: OpenSim's inverse dynamics (.sto), or a "
-        ".csv with time_s and columns like left_knee_flexion_torque_nm",
+        help="joint torques of the walk, for a further tab of curves: OpenSim's inverse dynamics (.sto), or "
+        "a .csv with time_s and columns like left_knee_flexion_torque_nm",
     )
 
 
 def given(args: argparse.Namespace) -> Torques | None:
-    """The torques that the arguments name; an OpenSim file has the signs of `--preset`, or of the walk's file.
+    """The torques that the arguments name; OpenSim's have the signs of `--preset` or of the walk's file.
 
     Raises:
         FormatError: The file cannot be read, or nothing tells the sign of its knee.
@@ -37,5 +37,5 @@ def given(args: argparse.Namespace) -> Torques | None:
         return load_torques(args.torques)
     told = args.preset
     if told is None and Path(args.gait).suffix.lower() in _OPENSIM:
-        told = preset_of(Path(args.gait))
+        told = preset_of(Path(args.gait), model=Path(args.model) if args.model else None)
     return load_torques(args.torques, preset=told)

@@ -6,18 +6,15 @@ browser's own recorder. The handles of the feet are left out: nobody can take th
 
 from __future__ import annotations
 
-import base64
-import io
 import shutil
-import subprocess
 import tempfile
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.viewer.chromium import Chromium
+from exo_pin.viewer.encode import FILMS
 from exo_pin.viewer.export import html
 from exo_pin.viewer.facts import Scene
 
@@ -35,36 +32,6 @@ _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
 #app { display: block !important } #view { position: fixed !important; inset: 0 }
 """
-_RECORDER = """
-(() => {
-  const canvas = document.createElement("canvas"), parts = [];
-  Object.assign(canvas, { width: innerWidth, height: innerHeight });
-  const pen = canvas.getContext("2d"), stream = canvas.captureStream(0);
-  const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 12e6 });
-  recorder.ondataavailable = (event) => parts.push(event.data);
-  recorder.start();
-  window.film = {
-    frame: async (png) => {
-      const picture = Object.assign(new Image(), { src: `data:image/png;base64,${png}` });
-      await picture.decode();
-      pen.drawImage(picture, 0, 0, canvas.width, canvas.height);
-      stream.getVideoTracks()[0].requestFrame();
-    },
-    end: async () => {
-      const ended = new Promise((done) => (recorder.onstop = done));
-      recorder.stop();
-      await ended;
-      const bytes = new Uint8Array(await new Blob(parts).arrayBuffer());
-      let text = "";
-      for (let k = 0; k < bytes.length; k += 4096)
-        text += String.fromCharCode(...bytes.subarray(k, k + 4096));
-      return btoa(text);
-    },
-  };
-})()
-"""
-_SHORTEST_SLOT, _LONGEST_DELAY = 0.15, 0.6  # the recorder drops what comes faster, and lags behind [s]
-_MILLISECONDS = bytes.fromhex("2ad7b1830f4240")  # WebM's TimestampScale: times count in 1 000 000 ns
 
 
 def picture(
@@ -91,11 +58,25 @@ def picture(
         UnknownNameError: There is no such camera.
         ExoPinError: There is no Chromium.
     """
-    if not 0 <= phase <= 1:
-        raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
+    (shot,) = pictures(scene, [phase], camera=camera, size=size, curves=curves, quality=quality)
+    return shot
+
+
+def pictures(
+    scene: Scene,
+    phases: Sequence[float],
+    *,
+    camera: str = "iso",
+    size: tuple[int, int] = (1920, 1080),
+    curves: bool = False,
+    quality: str = "high",
+) -> list[bytes]:
+    """Several moments as PNG, by one browser; arguments and errors as of `picture`."""
+    for phase in phases:
+        if not 0 <= phase <= 1:
+            raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
     with _page(scene, camera, size, curves, quality) as browser:
-        _show(browser, phase)
-        return browser.screenshot()
+        return list(_shots(browser, phases))
 
 
 def film(
@@ -135,7 +116,7 @@ def film(
     count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
     phases = progress([k / count for k in range(count)])
     with _page(scene, camera, size, curves, quality) as browser:
-        return FILMS[kind](browser, phases, fps)
+        return FILMS[kind](_shots(browser, phases), fps, browser)
 
 
 @contextmanager
@@ -173,68 +154,3 @@ def _shots(browser: Chromium, phases: Iterable[float]) -> Iterator[bytes]:
     for phase in phases:
         _show(browser, phase)
         yield browser.screenshot()
-
-
-def _gif(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
-    from PIL import Image
-
-    octree = Image.Quantize.FASTOCTREE  # keeps the small coloured parts, which the others average away
-    shots = (Image.open(io.BytesIO(shot)).convert("RGB") for shot in _shots(browser, phases))
-    first, *others = [shot.quantize(160, method=octree) for shot in shots]
-    file = io.BytesIO()
-    step = max(20, round(100 / fps) * 10)  # GIF counts hundredths of a second; browsers play none below 20 ms
-    first.save(file, "GIF", save_all=True, append_images=others, duration=step, loop=0)
-    return file.getvalue()
-
-
-def _webm(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
-    if shutil.which("ffmpeg"):
-        return _encoded(browser, phases, fps, ["-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-f", "webm"])
-    return _recorded(browser, phases, fps)
-
-
-def _mp4(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
-    options = ["-c:v", "libx264", "-crf", "20", "-movflags", "frag_keyframe+empty_moov", "-f", "mp4"]
-    return _encoded(browser, phases, fps, options)
-
-
-def _encoded(browser: Chromium, phases: Iterable[float], fps: float, options: Sequence[str]) -> bytes:
-    """Frames through ffmpeg; its picture sides must be even."""
-    even = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p"]
-    command = ["ffmpeg", "-loglevel", "error", "-f", "image2pipe", "-framerate", f"{fps:g}", "-i", "-"]
-    shots = b"".join(_shots(browser, phases))
-    done = subprocess.run([*command, *even, *options, "-"], input=shots, capture_output=True, check=False)
-    if done.returncode:
-        raise ExoPinError(f"ffmpeg failed: {done.stderr.decode(errors='replace').strip()[-300:]}")
-    return done.stdout
-
-
-def _recorded(browser: Chromium, phases: Iterable[float], fps: float) -> bytes:
-    """Frames through the browser's recorder, which goes by the wall clock.
-
-    So every frame gets a slot that is long enough to draw it, and afterwards the file's unit of time is made
-    shorter by the same factor.
-    """
-    start = time.monotonic()
-    _show(browser, 0.0)
-    browser.screenshot()
-    slot = max(_SHORTEST_SLOT, 2 * (time.monotonic() - start))
-    browser.evaluate(_RECORDER)
-    begin = time.monotonic()
-    for k, shot in enumerate(_shots(browser, phases)):
-        time.sleep(max(0.0, begin + k * slot - time.monotonic()))
-        browser.evaluate(f"film.frame('{base64.b64encode(shot).decode()}')")
-    time.sleep(_LONGEST_DELAY)
-    data = base64.b64decode(browser.evaluate("film.end()"))
-    if data.count(_MILLISECONDS, 0, 4096) != 1:
-        raise ExoPinError("this Chromium's recorder writes WebM in an unknown way; install ffmpeg instead")
-    unit = round(1e6 / (slot * fps))
-    return data.replace(_MILLISECONDS, _MILLISECONDS[:4] + unit.to_bytes(3, "big"), 1)
-
-
-FILMS: dict[str, Callable[[Chromium, Iterable[float], float], bytes]] = {
-    ".gif": _gif,
-    ".webm": _webm,
-    ".mp4": _mp4,
-}
-"""File name ending -> what makes the film."""

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
-from exo_pin.viewer import chromium, film
+from exo_pin.viewer import chromium, encode, film
 
 SMALL = {"size": (320, 240), "quality": "low"}
 
@@ -61,7 +61,7 @@ def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
 @pytest.mark.parametrize("curves", [False, True])
 def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, browser, monkeypatch, curves):
     path = chromium.find()
-    monkeypatch.setattr(film.shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
+    monkeypatch.setattr(encode.shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
     monkeypatch.setenv("EXO_PIN_CHROMIUM", path)
     data = film.film(scene, tmp_path / "walk.webm", **SMALL, fps=5, curves=curves)
     assert data.startswith(bytes.fromhex("1a45dfa3"))
