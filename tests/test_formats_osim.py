@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from exo_pin.formats.opensim import COLUMNS, LEGS
 from exo_pin.formats.osim import load_model
 from exo_pin.formats.pelvis import OURS
 
+MANGLED = 40  # a second each; by hand it were thousands
 EXACT = 1e-12  # [rad, m] the same numbers on another way
 FILE = 1e-6  # [m] eight digits of degrees in OpenSim's file, seven in the poses
 X, Y, Z = np.eye(3)
@@ -245,6 +248,7 @@ CURVE = '<SimmSpline name="function"><x>0 1 2</x><y>0 1 4</y></SimmSpline>'
         (osim().replace("0.09", "1e99"), "no length or angle"),
         (osim().replace("<axis>0.0 0.0 1.0<", "<axis>1<", 1), "<axis> holds 1 numbers"),
         (osim(kind="PinJoint"), "has 6 coordinates; a PinJoint has 1"),
+        (osim(leg=LEG | {"hip": ([*LEG["hip"][0][::2], ("other", X)], (0, 0, 0))}), "expected turns by"),
         (osim().replace(LINE, CURVE, 1), "'ground_pelvis' moves along curves"),
     ],
 )
@@ -254,6 +258,55 @@ def test_what_is_no_model_is_refused_in_one_line(model, tmp_path, angles, text, 
         load_gait(motion(tmp_path / "x.mot", angles), model=model)
     assert "\n" not in str(caught.value)
     assert "made.osim" in str(caught.value)
+
+
+TEXTS = [
+    "",
+    "nan",
+    "1e999",
+    "0 0 0",
+    "1 2",
+    "ground",
+    "/bodyset/pelvis",
+    "knee_angle_l",
+    "hip_flexion_l",
+    "..",
+]
+TAGS = ["FreeJoint", "CustomJoint", "PinJoint", "Body", "Coordinate", "SimmSpline", "Constant", "x"]
+
+
+def mangled(root, rng):
+    """A well-formed model whose elements got lost, doubled, renamed or other texts."""
+    root = copy.deepcopy(root)
+    elements = list(root.iter())
+    for _ in range(rng.integers(1, 4)):
+        one, other = (elements[k] for k in rng.integers(0, len(elements), 2))
+        match rng.integers(5):
+            case 0:
+                one.text = rng.choice(TEXTS)
+            case 1:
+                one.set("name", rng.choice(TEXTS))
+            case 2:
+                one.tag = rng.choice(TAGS)
+            case 3:
+                one[:] = one[1:]
+            case 4:
+                one.append(copy.deepcopy(other))
+    return ElementTree.tostring(root)
+
+
+@pytest.mark.parametrize("version", [3, 4])
+def test_mangled_models_are_read_or_refused_but_never_crash(model, tmp_path, angles, rng, version):
+    path, root = motion(tmp_path / "x.mot", angles), ElementTree.fromstring(osim(version=version))
+    messages = []
+    for _ in range(MANGLED):
+        model.write_bytes(mangled(root, rng))
+        try:
+            assert np.isfinite(load_gait(path, preset="opensim-gait2392", model=model).q).all()
+        except FormatError as error:
+            messages.append(str(error))
+    assert 0 < len(messages) < MANGLED
+    assert not any("\n" in message for message in messages)
 
 
 def test_models_and_orders_are_for_opensims_files(model, tmp_path, angles):

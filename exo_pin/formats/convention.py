@@ -94,7 +94,7 @@ def by_model(path: str | Path, columns: Mapping[str, str]) -> Convention:
     chain = tuple(model.chain(pelvis))
     signs = {ours: sign for ours, name in columns.items() if (sign := _sign(model, pelvis, ours, name))}
     wanted = {side: [columns[joint(side, m)] for m in MOVEMENTS[:3]] for side in SIDES}
-    odd = {side: hip for side, hip in hips.items() if _order(hip) != wanted[side]}
+    odd = {side: hip for side, hip in hips.items() if _is_odd(model, hip, wanted[side])}
     for link in (*chain, *odd.values()):
         if not all(axis.linear for axis in (*link.turns, *link.slides)):
             raise FormatError(model.path, f"joint {link.name!r} moves along curves; expected axes")
@@ -132,8 +132,15 @@ def _centre(hip: Joint) -> Array:
     return np.asarray((T @ hip.in_child)[0, :3, 3])
 
 
-def _order(hip: Joint) -> list[str]:
-    return [axis.coordinate for axis in hip.turns if axis.coordinate]
+def _is_odd(model: OsimModel, hip: Joint, usual_order: Sequence[str]) -> bool:
+    """Whether the hip's axes follow each other in another order than flexion, adduction, rotation."""
+    order = [axis.coordinate for axis in hip.turns if axis.coordinate]
+    if order == [name for name in usual_order if name in order]:
+        return False
+    if not set(hip.coordinates) <= set(usual_order):
+        why = f"joint {hip.name[:60]!r} moves by {', '.join(hip.coordinates)[:200]}"
+        raise FormatError(model.path, f"{why}; expected turns by {', '.join(usual_order)}")
+    return True
 
 
 def _sign(model: OsimModel, pelvis: str, ours: str, coordinate: str) -> int:
@@ -143,6 +150,8 @@ def _sign(model: OsimModel, pelvis: str, ours: str, coordinate: str) -> int:
     if pelvis not in [link.child for link in links]:
         return 0
     links = links[[link.child for link in links].index(pelvis) + 1 :]
+    if not links:  # it moves the pelvis itself
+        return 0
     names = {name for link in links for name in link.coordinates}
     values = {name: np.array([0.0, SMALL if name == coordinate else 0.0]) for name in names}
     R = reduce(np.matmul, [link.placed(values)[:, :3, :3] for link in links])
