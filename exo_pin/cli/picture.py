@@ -13,6 +13,7 @@ _EXAMPLES = """examples:
   exo-pin picture -o walk.png
   exo-pin picture walk.mot --phase 0.3 --camera left --size 1280x720 -o left.png
   exo-pin picture free --curves -o page.png      the page with its curves
+  exo-pin picture --robot g1 -o g1.png           a humanoid walks
 
 Needs Chromium (e.g. apt install chromium); EXO_PIN_CHROMIUM names another one."""
 

@@ -18,6 +18,7 @@ _EXAMPLES = """examples:
   exo-pin replay very_slow --stature 1.6 --speed 0.5
   exo-pin replay walk.mot                 a recording
   exo-pin replay --device lokomat         another device, as near to the feet as it can
+  exo-pin replay --robot talos            a humanoid, or --robot my.urdf: any robot with two legs
   exo-pin replay walk.mot --torques id.sto    and the torques that inverse dynamics found
   exo-pin replay walk.mot --html walk.html    one offline file that every browser plays
 

@@ -38,6 +38,11 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="DEVICE",
         help="name or device file: another one walks as near to the feet as it can (see `exo-pin devices`)",
     )
+    parser.add_argument(
+        "--robot",
+        metavar="ROBOT",
+        help="another robot walks instead: a name, .urdf or .toml file (see `exo-pin retarget --help`)",
+    )
     options.add_body(parser)
     options.add_hip_order(parser)
 
@@ -59,6 +64,8 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     from exo_pin import viewer
     from exo_pin.robot import load_robot
 
+    if args.robot is not None:
+        return _of_robot(args, body, gait)
     curves = torques.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
@@ -81,6 +88,35 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         title=f"{name} - exo_pin",
         support=args.support,
         notes=notes,
+        speed=args.speed,
+    )
+
+
+def _of_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
+    """The walk on another robot, and what it misses."""
+    from exo_pin import retarget, viewer
+    from exo_pin.robot import load_robot
+
+    for option, other in (("device", "exo12"), ("hip_order", "clinical"), ("torques", None)):
+        if getattr(args, option) != other:
+            name = option.replace("_", "-")
+            raise DescriptionError(f"--{name} is for the exoskeleton; leave it away with --robot")
+    gait, note = options.with_events(load_robot(body), gait)
+    walk = retarget.retarget(gait, args.robot, body)
+    facts = walk.facts()
+    feet, title = facts["foot_by_foot"], walk.target.title or walk.target.name
+    print(
+        f"{title}: the feet's paths {sum(walk.scale) / 2:.2f} times the person's, missed by "
+        f"{feet['position_error_mm_max']:.2f} mm and {feet['rotation_error_deg_max']:.1f} deg at most "
+        f"({facts['samples_missed']} of {facts['samples']} samples missed)"
+    )
+    return viewer.retargeted(
+        walk,
+        compare=None if args.compare is None else options.load(args.compare, body, preset=args.preset),
+        compare_title=Path(args.compare or "").name,
+        title=f"{Path(args.gait).name} on {title} - exo_pin",
+        support=args.support,
+        notes=[line for line in (gait.source, note) if line],
         speed=args.speed,
     )
 
