@@ -18,19 +18,19 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_bytes
 from exo_pin.formats import c3dheader, c3dintel, c3dnumbers
+from exo_pin.formats.c3devents import foot_events
 from exo_pin.formats.markers import Markers, Plate, to_z_up, unique
 from exo_pin.formats.notes import Notes, to_gait
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.table import Array
-from exo_pin.gait import Event, Gait
+from exo_pin.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.signals import longest_run
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 NEWTON_METRES = {"Nmm": 1e-3, "Nm": 1.0, "N.m": 1.0, "N.mm": 1e-3}
 RADIANS = {"deg": np.pi / 180, "degrees": np.pi / 180, "rad": 1.0, "radians": 1.0}
-KINDS = {"foot strike": "heel_strike", "foot off": "toe_off"}
 SECONDS = 60
 """A file of the largest size takes ezc3d some ten."""
 
@@ -74,7 +74,9 @@ def read_markers(path: Path) -> Markers:
             position,
             up=_up(found),
             angles={name: points[places[name]] * scale for name in angular},
-            events=_events(found, time),
+            events=foot_events(
+                found["event_times"], found["event_labels"], found["event_contexts"], (time[0], time[-1])
+            ),
             plates=_plates(path, found, float(time[0])),
             source=path.name,
         )
@@ -200,20 +202,6 @@ def _up(found: Mapping[str, NDArray[Any]]) -> str:
     said = str(found["y_screen"][0]).strip().lower() if found["y_screen"].size else ""
     said = said if said[:1] in "+-" else f"+{said}"
     return said if said[1:] in ("x", "y", "z") else ""
-
-
-def _events(found: Mapping[str, NDArray[Any]], time: Array) -> tuple[Event, ...]:
-    """Strikes and offs of a left or right foot within the trial; the second row of the times is seconds."""
-    times = found["event_times"]
-    if times.ndim != 2 or len(times) != 2:
-        return ()
-    seconds = np.round(60 * times[0] + times[1], 6)
-    events = []
-    for t, label, context in zip(seconds, found["event_labels"], found["event_contexts"], strict=False):
-        kind, side = KINDS.get(str(label).strip().lower()), str(context).strip().lower()
-        if kind and side in ("left", "right") and time[0] <= t <= time[-1]:
-            events.append(Event(float(t), kind, side, "C3D event"))
-    return tuple(sorted(events, key=lambda event: event.time))
 
 
 def _plates(path: Path, found: Mapping[str, NDArray[Any]], start: float) -> tuple[Plate, ...]:

@@ -11,7 +11,8 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes, write_bytes
-from exo_pin.formats.c3d import KINDS, PELVIS, PIG, angle_of
+from exo_pin.formats.c3d import PELVIS, PIG, angle_of
+from exo_pin.formats.c3devents import WORDS
 from exo_pin.formats.table import Array
 from exo_pin.gait import Gait
 
@@ -21,7 +22,7 @@ EVEN = 1e-3
 AXIS = 100.0
 """Length of the pelvis's axes in the file [mm]."""
 
-LABELS = {kind: label.title() for label, kind in KINDS.items()}
+LABELS = {kind: words[0].title() for kind, words in WORDS.items()}
 
 
 def write_gait(gait: Gait, path: Path) -> None:
