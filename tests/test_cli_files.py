@@ -153,13 +153,34 @@ def test_edit_blends_symmetrises_and_ramps(capsys, tmp_path):
     assert np.abs(load_gait(path).dq[[0, -1]]).max() < 0.05
 
 
+def test_edit_goes_over_from_one_walk_to_another(capsys, tmp_path):
+    path = tmp_path / "faster.csv"
+    code, out, _ = run(capsys, "edit", "slow", path, "--transition", "free=3", "--lead", 1, "--mirror")
+    assert code == 0
+    for done in ("as it is", "mirrored", "transition"):
+        assert any(line.strip().startswith(done) for line in out.splitlines()), done
+    slow, free = (normative_gait(speed).duration for speed in ("slow", "free"))
+    assert load_gait(path).duration == pytest.approx(slow + 1.5 * (slow + free) + free)
+    code, out, _ = run(capsys, "edit", "slow", path, "--transition", "free=4s", "--lead", 0, "--json")
+    facts = json.loads(out)
+    assert facts["duration_s"] == pytest.approx(4)
+    assert [step["step"] for step in facts["steps_in_rad"]] == ["as it is", "transition"]
+    assert all(step["ok"] for step in facts["steps_in_rad"])
+
+
 def test_edit_writes_what_leaves_the_limits_but_exits_with_1(capsys, tmp_path):
     path = tmp_path / "wild.csv"
     code, out, _ = run(capsys, "edit", "free", path, "--amplitude", "knee_flexion=3")
     assert code == 1
     assert path.exists()
     assert "left_knee_flexion: angle" in out
-    for words in (["--stride", 9], ["--amplitude", "knee_flexion"], ["--blend", "slow"], ["--ramp", -1, 1]):
+    for words in (
+        ["--stride", 9],
+        ["--amplitude", "knee_flexion"],
+        ["--blend", "slow"],
+        ["--ramp", -1, 1],
+        ["--transition", "slow=x"],
+    ):
         code, _, err = run(capsys, "edit", "free", tmp_path / "no.csv", *words)
         assert (code, len(err.splitlines())) == (2, 1)
         assert not (tmp_path / "no.csv").exists()

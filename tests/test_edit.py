@@ -11,7 +11,7 @@ from exo_pin import edit
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
 from exo_pin.edit.check import JOLT
 from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
-from exo_pin.gait import SPEEDS, Gait, normative_gait
+from exo_pin.gait import SPEEDS, Gait, curves, normative_gait
 from exo_pin.kinematics import poses, spatiotemporal
 from exo_pin.robot import load_robot
 
@@ -244,3 +244,90 @@ def test_the_recheck_names_joints_kinds_and_amounts(robot, walk):
     assert "left_knee_flexion" in wild.velocity
     assert "left_knee_flexion" in wild.acceleration
     assert any(line.startswith("left_knee_flexion: velocity") for line in wild.lines())
+
+
+@pytest.mark.parametrize(("start", "end", "cycles"), [("free", "slow", 3), ("very_slow", "very_fast", 1.5)])
+def test_a_transition_goes_over_without_a_jump_of_angle_speed_or_acceleration(robot, start, end, cycles):
+    """Four times as many samples leave a quarter of the steps between them: the curve has none of its own."""
+    coarse, fine = (
+        edit.transitioned(
+            *(normative_gait(s, samples=n) for s in (start, end)), cycles=cycles, before=1, after=1
+        )
+        for n in (100, 400)
+    )
+    inner = slice(4, -4)  # the differences at the ends are of a lower order
+    for order in ("q", "dq", "ddq"):
+        steps = [np.abs(np.diff(getattr(g, order)[inner], axis=0)).max() for g in (coarse, fine)]
+        assert steps[1] == pytest.approx(steps[0] / 4, rel=0.1), order
+    turns = [np.abs(np.diff(g.base, n=3, axis=0)).max() for g in (coarse, fine)]
+    assert turns[1] < turns[0] / 30  # the third differences of a curve with three derivatives shrink by 64
+    assert edit.recheck(robot, fine).ok
+
+
+def test_a_transition_begins_with_one_walk_and_ends_with_the_other(walk):
+    slow = normative_gait("slow")
+    g = edit.transitioned(walk, slow, cycles=2, before=1, after=2)
+    first, last = (g.time < walk.duration), (g.time > g.duration - slow.duration)
+    for part, source, since in ((first, walk, 0.0), (last, slow, g.duration)):
+        phase = (g.time[part] - since) / source.duration
+        np.testing.assert_allclose(g.q[part], curves.at_phase(source.q, phase), atol=EXACT)
+    assert g.duration == pytest.approx(walk.duration + (walk.duration + slow.duration) + 2 * slow.duration)
+    strikes = [e.time for e in g.events if (e.side, e.kind) == ("left", "heel_strike")]
+    strides = np.diff(strikes)
+    assert len(strides) == 5
+    assert (np.diff(strides) > -EXACT).all()  # every stride takes as long as the one before, or longer
+    assert strides[[0, -1]] == pytest.approx([walk.duration, slow.duration])
+    assert all(g.stance(side).any() for side in SIDES)  # events take turns
+    timed = edit.transitioned(walk, slow, seconds=3.0, before=0, after=0)
+    assert timed.duration == pytest.approx(3.0)
+
+
+def test_walks_are_mixed_where_their_heels_strike(walk):
+    """A walk that begins elsewhere in its cycle, and limps, is brought to the same phases."""
+    n = len(walk) // 4
+    shifted = dataclasses.replace(
+        walk,
+        q=np.roll(walk.q, -n, axis=0),
+        base=np.roll(walk.base, -n, axis=0),
+        events=[dataclasses.replace(e, time=(e.time - walk.time[n]) % walk.duration) for e in walk.events],
+    )
+    np.testing.assert_allclose(edit.blended(walk, shifted).q, walk.q, atol=EXACT)
+    np.testing.assert_allclose(edit.blended(shifted, walk, share=0.3).q, shifted.q, atol=EXACT)
+    limp = dataclasses.replace(
+        walk,
+        events=[
+            dataclasses.replace(e, time=e.time + 0.06 * walk.duration * (e.side == "right"))
+            for e in walk.events
+        ],
+    )
+    middle = edit.blended(walk, limp)
+    right = {e.kind: e.time / middle.duration for e in middle.events if e.side == "right"}
+    assert right["heel_strike"] == pytest.approx(0.53)
+    sooner = dataclasses.replace(
+        walk,
+        events=[
+            dataclasses.replace(e, time=(e.time - 0.3 * walk.duration * (e.side == "right")) % walk.duration)
+            for e in walk.events
+        ],
+    )
+    with pytest.raises(GaitError, match="right heel strikes at 50% and 20% of the cycle are too far apart"):
+        edit.blended(walk, sooner)
+
+
+def test_a_transition_needs_repeating_walks_and_a_length(walk):
+    with pytest.raises(GaitError, match="only periodic"):
+        edit.transitioned(walk, recording(walk))
+    for wrong in ({"cycles": 0}, {"seconds": -1.0}, {"before": -1.0}, {"cycles": float("nan")}):
+        with pytest.raises(GaitError, match="expected"):
+            edit.transitioned(walk, walk, **wrong)
+
+
+def test_the_recheck_tells_how_near_the_limits_a_walk_comes(robot, walk):
+    found = edit.recheck(robot, walk)
+    joint, inside = found.closest
+    k = robot.joints.index(joint)
+    angles = robot.angles(robot.from_gait(walk))
+    nearest = min((angles[:, k] - robot.lower[k]).min(), (robot.upper[k] - angles[:, k]).min())
+    assert inside == pytest.approx(nearest)
+    assert found.fastest[1] == pytest.approx(np.abs(walk.dq[:, JOINTS.index(found.fastest[0])]).max())
+    assert found.hardest[1] == pytest.approx(np.abs(walk.ddq).max())

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options
+from exo_pin.cli import options, show
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
+    from exo_pin.edit import Recheck
     from exo_pin.gait import Gait
     from exo_pin.robot import Robot
 
@@ -20,9 +22,12 @@ _EXAMPLES = """examples:
   exo-pin edit free start.yaml --ramp 3 3                   a slow start and stop, for a controller
   exo-pin edit walk.mot smooth.csv --cutoff 6 --mirror
   exo-pin edit free between.csv --blend slow=0.3
+  exo-pin edit slow faster.csv --transition free=3          from one to the other within 3 cycles
+  exo-pin edit slow faster.csv --transition free=4s --ramp 2 2
 
 Adjustments are made in the order of these options: cutoff, symmetric, mirror, blend, amplitude, stride and
-clearance, duration or slower, ramp. exit code 0: done; 1: written, but a joint leaves its limits."""
+clearance, transition, duration or slower, ramp. Limits, speeds and accelerations are checked after each.
+exit code 0: done; 1: written, but a joint leaves its limits."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -44,28 +49,71 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--stride", type=float, default=1.0, metavar="F", help="stride length, at the feet")
     group.add_argument("--clearance", type=float, default=1.0, metavar="F", help="height of the swing foot")
+    group.add_argument(
+        "--transition",
+        metavar="GAIT=CYCLES",
+        help="go over to another gait that repeats, within so many cycles (3) or seconds (4s)",
+    )
+    group.add_argument(
+        "--lead",
+        type=float,
+        default=2.0,
+        metavar="CYCLES",
+        help="of each gait around a transition (default: 2)",
+    )
     group.add_argument("--slower", type=float, metavar="F", help="this many times slower")
     group.add_argument("--duration", type=float, metavar="S", help="length of the whole walk [s]")
     group.add_argument("--ramp", type=float, nargs=2, metavar=("UP", "DOWN"), help="slow start and stop [s]")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Adjust, check, write."""
+    """Adjust, check after each adjustment, write."""
     from exo_pin import edit
     from exo_pin.formats import save_gait
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
-    for step in _STEPS:
-        gait = step(args, robot, body, gait)
-    checked = edit.recheck(robot, gait)
+    checks = {"as it is": edit.recheck(robot, gait)}
+    for name, step in _STEPS.items():
+        changed = step(args, robot, body, gait)
+        if changed is not gait:
+            checks[name] = edit.recheck(robot, changed)
+        gait = changed
     save_gait(gait, args.output)
-    print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s\n{gait.source}")
-    for line in checked.lines():
+    if args.json:
+        steps = [{"step": name, "ok": x.ok, **dataclasses.asdict(x)} for name, x in checks.items()]
+        facts = {"output": args.output, "samples": len(gait.time), "duration_s": gait.duration}
+        show.as_json(facts | {"source": gait.source, "steps_in_rad": steps})
+    else:
+        print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s\n{gait.source}")
+        _print(checks)
+    return 0 if checks[next(reversed(checks))].ok else 1
+
+
+def _print(checks: dict[str, Recheck]) -> None:
+    """What each adjustment asks of the joints, and which of them the last one asks too much."""
+    import numpy as np
+
+    from exo_pin.edit.check import JOLT
+
+    rows = [
+        [
+            name,
+            show.fixed(np.degrees(x.closest[1])),
+            show.fixed(100 * x.fastest[1] / x.fastest[2], 0),
+            show.fixed(100 * x.hardest[1] / JOLT, 0),
+        ]
+        for name, x in checks.items()
+    ]
+    title = (
+        f"checked after each adjustment; speed in % of the motors', acceleration in % of {JOLT:g} rad/s^2:"
+    )
+    show.table(title, ["after", "deg to a limit", "speed", "acceleration"], rows)
+    for line in checks[next(reversed(checks))].lines():
         print(line)
-    return 0 if checked.ok else 1
 
 
 Step = Callable[[argparse.Namespace, "Robot", "Body", "Gait"], "Gait"]
@@ -77,10 +125,15 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
     return gait if args.cutoff is None else edit.filtered(gait, cutoff=args.cutoff)
 
 
-def _sides(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+def _symmetric(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
-    gait = edit.symmetrised(gait) if args.symmetric else gait
+    return edit.symmetrised(gait) if args.symmetric else gait
+
+
+def _mirror(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+    from exo_pin import edit
+
     return edit.mirrored(gait) if args.mirror else gait
 
 
@@ -91,6 +144,20 @@ def _blend(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Ga
         return gait
     name, share = _number(args.blend, "--blend")
     return edit.blended(gait, options.load(name, body), share=share)
+
+
+def _transition(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+    from exo_pin import edit
+
+    if args.transition is None:
+        return gait
+    in_time = args.transition.endswith("s") and args.transition[-2:-1].isdigit()
+    name, length = _number(args.transition.removesuffix("s") if in_time else args.transition, "--transition")
+    other = options.load(name, body)
+    around = {"before": args.lead, "after": args.lead}
+    if in_time:
+        return edit.transitioned(gait, other, seconds=length, **around)
+    return edit.transitioned(gait, other, cycles=length, **around)
 
 
 def _amplitude(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
@@ -111,12 +178,29 @@ def _feet(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gai
 def _time(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
-    if args.slower is not None or args.duration is not None:
-        gait = edit.retimed(gait, factor=args.slower, duration=args.duration)
+    if args.slower is None and args.duration is None:
+        return gait
+    return edit.retimed(gait, factor=args.slower, duration=args.duration)
+
+
+def _ramp(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+    from exo_pin import edit
+
     return edit.ramped(gait, start=args.ramp[0], stop=args.ramp[1]) if args.ramp else gait
 
 
-_STEPS: tuple[Step, ...] = (_filter, _sides, _blend, _amplitude, _feet, _time)
+_STEPS: dict[str, Step] = {
+    "filtered": _filter,
+    "symmetric": _symmetric,
+    "mirrored": _mirror,
+    "blended": _blend,
+    "amplitude": _amplitude,
+    "at the feet": _feet,
+    "transition": _transition,
+    "retimed": _time,
+    "ramped": _ramp,
+}
+"""In the order in which they are made."""
 
 
 def _number(text: str, option: str) -> tuple[str, float]:

@@ -1,8 +1,9 @@
 """Everyday adjustments of a walk: time, amplitude, stride and clearance, sides, blends, ramps, smoothing."""
 
+from exo_pin.edit.blend import blended, transitioned
 from exo_pin.edit.check import Recheck, recheck
 from exo_pin.edit.feet import strided
-from exo_pin.edit.joints import blended, filtered, mirrored, ramped, retimed, scaled, symmetrised
+from exo_pin.edit.joints import filtered, mirrored, ramped, retimed, scaled, symmetrised
 
 __all__ = [
     "Recheck",
@@ -15,4 +16,5 @@ __all__ = [
     "scaled",
     "strided",
     "symmetrised",
+    "transitioned",
 ]

@@ -20,17 +20,23 @@ JOLT = 200.0
 
 @dataclass(frozen=True, eq=False)
 class Recheck:
-    """The joints that leave what is allowed, each with its worst value; empty where all is well.
+    """The joints that leave what is allowed, each with its worst value, and how near the others come.
 
     Attributes:
-        angle: Joint -> furthest angle beyond its limits [rad].
+        angle: Joint -> furthest angle beyond its limits [rad]; empty where all is well.
         velocity: Joint -> largest speed beyond the robot's [rad/s].
         acceleration: Joint -> largest acceleration beyond `JOLT` [rad/s^2].
+        closest: The joint that comes closest to a limit or furthest beyond, and its distance inside [rad].
+        fastest: The joint that needs most of its speed, that speed, and what it has [rad/s].
+        hardest: The joint with the largest acceleration, and that acceleration [rad/s^2].
     """
 
     angle: dict[str, float]
     velocity: dict[str, float]
     acceleration: dict[str, float]
+    closest: tuple[str, float]
+    fastest: tuple[str, float, float]
+    hardest: tuple[str, float]
 
     @property
     def ok(self) -> bool:
@@ -69,7 +75,27 @@ def recheck(robot: Robot, gait: Gait) -> Recheck:
         },
         _fast(robot, gait.dq, robot.velocity + ROUNDING),
         _fast(robot, gait.ddq, np.full(len(robot.joints), JOLT)),
+        _closest(robot, excess),
+        _fastest(robot, gait),
+        _hardest(robot, gait),
     )
+
+
+def _closest(robot: Robot, excess: npt.NDArray[np.float64]) -> tuple[str, float]:
+    k = int(excess.max(axis=0).argmax())
+    return robot.joints[k], float(-excess[:, k].max())
+
+
+def _fastest(robot: Robot, gait: Gait) -> tuple[str, float, float]:
+    speeds = dict(zip(JOINTS, np.abs(gait.dq).max(axis=0).tolist(), strict=True))
+    limits = zip(robot.joints, robot.velocity.tolist(), strict=True)
+    known = [(joint, speeds[joint], limit) for joint, limit in limits if joint in speeds]
+    return max(known, key=lambda x: x[1] / x[2])
+
+
+def _hardest(robot: Robot, gait: Gait) -> tuple[str, float]:
+    peaks = zip(JOINTS, np.abs(gait.ddq).max(axis=0).tolist(), strict=True)
+    return max((pair for pair in peaks if pair[0] in robot.joints), key=lambda x: x[1])
 
 
 def _fast(robot: Robot, rates: npt.NDArray[np.float64], limit: npt.NDArray[np.float64]) -> dict[str, float]:

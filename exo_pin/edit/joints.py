@@ -80,35 +80,6 @@ def symmetrised(gait: Gait) -> Gait:
     return _told(dataclasses.replace(even, q=q, base=base, events=_even_events(even)), "symmetrised")
 
 
-def blended(first: Gait, second: Gait, *, share: float = 0.5) -> Gait:
-    """A walk between two periodic ones: every angle, the pelvis and the period mixed at equal phase.
-
-    Args:
-        first: The walk at share 0.
-        second: The walk at share 1.
-        share: Between 0 and 1. To go over from one to the other, let it grow from cycle to cycle.
-
-    Raises:
-        GaitError: One of them is not periodic, or the share is not between 0 and 1.
-    """
-    if not (first.periodic and second.periodic):
-        raise GaitError("only periodic gaits can be blended: equal phase must mean something")
-    if not 0 <= share <= 1:
-        raise GaitError(f"share is {share}: expected 0 (the first walk) to 1 (the second)")
-    n = max(len(first), len(second))
-    a, b = first.resampled(n), second.resampled(n)
-    T = (1 - share) * a.duration + share * b.duration
-    base = None
-    if a.base is not None and b.base is not None:
-        base = nearest_pose((1 - share) * a.base + share * b.base)
-    near = a if share < 0.5 else b
-    events = tuple(dataclasses.replace(e, time=e.time / near.duration * T) for e in near.events)
-    mixed = Gait(
-        T * np.arange(n) / n, (1 - share) * a.q + share * b.q, base=base, events=events, periodic=True
-    )
-    return dataclasses.replace(mixed, source=f"{first.source} and {second.source}, blended {share:g}")
-
-
 def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
     """A slow start and a slow stop: time runs up from standing still and down again, without a jolt.
 

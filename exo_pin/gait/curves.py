@@ -41,6 +41,20 @@ def resampled(time: Array, y: Array, new: Array, periodic: bool) -> Array:
     return _trigonometric(y, len(new)) if periodic else _hermite(time, y, new)
 
 
+def at_phase(y: Array, phase: Array) -> Array:
+    """The periodic curve through `(n, m)` samples of a cycle at any phases `(k,)`; 1 is a full cycle.
+
+    Trigonometric interpolation, smooth in the phase: `(k, m)` values.
+    """
+    n = len(y)
+    c = np.fft.rfft(y, axis=0) / n
+    c[1:] *= 2
+    if n % 2 == 0:
+        c[-1] /= 2  # the highest cosine has no partner
+    angle = 2j * np.pi * np.outer(phase, np.arange(len(c)))
+    return np.asarray((np.exp(angle) @ c).real)
+
+
 def _spectral(y: Array, order: int, period: float) -> Array:
     n = len(y)
     factor = (2j * np.pi * np.fft.rfftfreq(n, 1 / n) / period) ** order
