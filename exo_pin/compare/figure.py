@@ -11,6 +11,9 @@ _WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 760, 430, 70, 150, 46, 54
 _FLOOR = 0.5
 """Losses below this [mm] are drawn on the axis: the scale is logarithmic."""
 
+_LETTERS = 52
+"""Of a walk's name have room in the heading."""
+
 _SHORT = {
     "hip_flexion": "hip flexion",
     "hip_adduction": "adduction",
@@ -21,11 +24,18 @@ _SHORT = {
 }
 
 
-def pareto_svg(worth: Worth) -> str:
-    """All 64 choices as dots, the best for each number of motors joined and named by what it adds."""
+def pareto_svg(worth: Worth, *, name: str = "") -> str:
+    """All 64 choices as dots, the best for each number of motors joined and named by what it adds.
+
+    Args:
+        worth: The choices.
+        name: What the walk is called; the beginning of its source if left out.
+    """
     top = max(1e3 * loss for loss in worth.losses.values())
     parts = [*_axes(top), *_dots(worth, top), *_front(worth, top)]
-    title = escape(f"Which joints are worth their motor: {worth.walk.gait.source or 'gait'}")
+    called = name or worth.walk.gait.source or "gait"
+    called = called if len(called) <= _LETTERS else f"{called[:_LETTERS]} …"
+    title = escape(f"Which joints are worth their motor: {called}")
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" '
         'font-family="sans-serif" font-size="12" fill="#333">'
