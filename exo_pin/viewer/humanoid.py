@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from os.path import commonprefix
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,8 +124,11 @@ def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion
 
 def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
     """The robot; only its legs' joints have sliders."""
-    legs = set(result.joints)
-    turns = tuple(turn if turn.name in legs else replace(turn, limits=None) for turn in tree.turns)
+    sides = {joint: leg.side for leg in result.machine.legs for joint in leg.joints}
+    turns = tuple(
+        replace(turn, side=sides[turn.name]) if turn.name in sides else replace(turn, limits=None)
+        for turn in tree.turns
+    )
     chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
     plates = [sole for sole in feet if sole.link not in tree.shapes and _bare(result.machine, sole, tree)]
     commands = (*tree.commands, *(command for sole in plates for command in _plate(tree, sole)))
@@ -166,14 +171,35 @@ def _plate(tree: Linkage, sole: Sole) -> list[dict[str, object]]:
 
 
 def _tabs(result: Retargeted) -> tuple[curves.Tab, ...]:
-    """The leg joints' own curves; dashed: joint by joint."""
+    """The leg joints' own curves, in the robot's own signs; dashed: joint by joint."""
     time, joints = result.time - result.time[0], result.joints
+    labels = _labels(result.machine)
     solved = curves.of_robot(result.robot, time, result.q, joints)
     copied = curves.of_robot(result.robot, time, result.copied, joints)
     return tuple(
-        replace(tab, reference=other.values, reference_time=time)
+        replace(tab, joints=labels, reference=other.values, reference_time=time)
         for tab, other in zip(solved, copied, strict=True)
     )
+
+
+def _labels(machine: Machine) -> tuple[str, ...]:
+    """What the plots call the joints: side, what left and right names share, and what it is in a person."""
+    left, right = machine.legs
+    shared = [_shared(*pair) for pair in zip(left.joints, right.joints, strict=True)]
+    return tuple(
+        f"{leg.side}_{name} ({movement.replace('_', ' ')})"
+        for leg in (left, right)
+        for name, movement in zip(shared, leg.movements, strict=True)
+    )
+
+
+def _shared(left: str, right: str) -> str:
+    """`leg_4` of `leg_left_4_joint` and `leg_right_4_joint`: the name without its side."""
+    one, other = (re.sub(r"(?i)left|right", "", name) for name in (left, right))
+    start = len(commonprefix([one, other]))
+    end = 0 if one == other else len(commonprefix([one[start:][::-1], other[start:][::-1]]))
+    name = one if one == other else one[:start] + "_" + one[len(one) - end :]
+    return re.sub(r"[_\W]+", "_", name.removesuffix("_joint")).strip("_")
 
 
 def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:

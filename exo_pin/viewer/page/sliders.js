@@ -27,7 +27,7 @@ class Sliders {
     const value = document.createElement("output");
     name.textContent = joint.name.replaceAll("_", " ");
     Object.assign(range, { type: "range", step: "any", min: joint.limits[0], max: joint.limits[1] });
-    label.className = joint.name.split("_")[0];
+    label.className = joint.side || joint.name.split("_")[0];
     range.oninput = () => {
       this.q[k] = Number(range.value);
       this.tell({ range, value, k });
