@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from exo_pin import viewer
 from exo_pin.kinematics import poses
 
 SINGLE = 1e-6  # [m]: float32
+PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
 
 
 @pytest.fixture
@@ -64,7 +67,10 @@ def test_another_scene_replaces_the_first(browser, server, robot, gait):
 def test_a_reopened_browser_resumes(browser, server):
     browser.open(server.url)
     browser.evaluate("exo.seek(0.4321); exo.setSpeed(0.25); exo.look('feet')")
-    browser.evaluate("new Promise(done => setTimeout(done, 900))")  # it reports twice a second
+    browser.wait("JSON.parse(exo.transport.said || '{}').view === 'feet'")  # it reports twice a second
+    end = time.monotonic() + PATIENCE
+    while (server.state or {}).get("view") != "feet" and time.monotonic() < end:
+        time.sleep(0.01)
     assert server.state["time"] == pytest.approx(0.4321)
     browser.open("about:blank", until="true")
     browser.open(server.url)

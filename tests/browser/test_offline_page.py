@@ -368,6 +368,9 @@ def test_the_picture_and_a_film_can_be_saved(page):
     page.wait("saved.length === 1")
     page.evaluate("document.getElementById('webm').click()")
     page.evaluate("new Promise(done => setTimeout(done, 800))")
+    page.wait(
+        f"exo.stage.renderer.info.render.frame > {page.evaluate('exo.stage.renderer.info.render.frame')} + 8"
+    )
     page.evaluate("document.getElementById('webm').click()")
     page.wait("saved.length === 2")
     assert page.evaluate("saved") == ["12-DoF-exoskeleton-gait.png", "12-DoF-exoskeleton-gait.webm"]
