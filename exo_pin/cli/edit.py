@@ -108,10 +108,8 @@ def _print(checks: dict[str, Recheck]) -> None:
         ]
         for name, x in checks.items()
     ]
-    title = (
-        f"checked after each adjustment; speed in % of the motors', acceleration in % of {JOLT:g} rad/s^2:"
-    )
-    show.table(title, ["after", "deg to a limit", "speed", "acceleration"], rows)
+    title = f"after each adjustment: degrees inside the limits, % of the motors' speed, % of {JOLT:g} rad/s^2"
+    show.table(title, ["after", "deg inside", "speed", "acceleration"], rows)
     for line in checks[next(reversed(checks))].lines():
         print(line)
 
