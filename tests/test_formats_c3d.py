@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import sys
 import time
 
@@ -11,6 +12,7 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, c3dheader, load_gait, load_markers, save_gait
+from exo_pin.formats.markers import to_z_up
 from exo_pin.gait import Gait, normative_gait
 
 ANGLE = 1e-5  # [deg] C3D holds 32-bit numbers
@@ -41,6 +43,24 @@ def test_a_written_file_brings_the_walk_back(written):
     assert [(e.kind, e.side) for e in back.events] == [(e.kind, e.side) for e in gait.events]
     assert [e.time for e in back.events] == pytest.approx([e.time for e in gait.events], abs=CLOCK)
     assert "Plug-in Gait" in back.source
+
+
+def test_a_pelvis_without_a_stated_vertical_stands_upright_and_one_seen_in_part_is_kept(written):
+    gait, path = written
+    trial = load_markers(path)
+    for up in ("+y", "-x"):  # a laboratory with another vertical, which the file does not state
+        turned = trial.turned(to_z_up(up).T)
+        base = c3d.model_angles(path, dataclasses.replace(turned, up="")).base
+        np.testing.assert_allclose(base[:, 2, 3], gait.base[:, 2, 3], atol=LENGTH)
+        np.testing.assert_allclose(base[:, 2, :3], gait.base[:, 2, :3], atol=LENGTH)
+    angles = {name: values.copy() for name, values in trial.angles.items()}
+    position = trial.position.copy()
+    for values in (*angles.values(), position):
+        values[:10] = np.nan
+    part = c3d.model_angles(path, dataclasses.replace(trial, angles=angles, position=position))
+    np.testing.assert_allclose(part.base, gait.base[10:], atol=LENGTH)
+    position[50] = np.nan
+    assert c3d.model_angles(path, dataclasses.replace(trial, angles=angles, position=position)).base is None
 
 
 def test_uneven_samples_are_refused_and_nothing_is_written(tmp_path):

@@ -119,10 +119,8 @@ def model_angles(path: Path, trial: Markers) -> Gait:
     if stop - start < len(trial):
         source += f", frames {start} to {stop - 1} of {len(trial)}"
     events = tuple(event for event in trial.events if time[0] <= event.time <= time[-1])
-    base = _pelvis(trial)
-    return to_gait(
-        path, time, q[start:stop], None if base is None else base[start:stop], Notes(events, source=source)
-    )
+    base = _pelvis(trial, start, stop)
+    return to_gait(path, time, q[start:stop], base, Notes(events, source=source))
 
 
 def _channel(trial: Markers, name: str, k: int, sign: int) -> Array:
@@ -135,18 +133,26 @@ def angle_of(column: str) -> tuple[str, int, int]:
     return name, "XYZ".index(axis), -1 if column.startswith("-") else 1
 
 
-def _pelvis(trial: Markers) -> Array | None:
-    """`(n, 4, 4)` T_world_pelvis from the segment frame, or None where it or the vertical is not known."""
-    if not set(PELVIS) <= set(trial.names) or not trial.up:
+def _pelvis(trial: Markers, start: int, stop: int) -> Array | None:
+    """T_world_pelvis of these frames by the segment frame; None where it or the vertical is not known."""
+    if not set(PELVIS) <= set(trial.names):
         return None
-    origin, *axes = (trial.of(name) @ to_z_up(trial.up).T for name in PELVIS)
-    T = np.tile(np.eye(4), (len(trial), 1, 1))
-    T[:, :3, 3] = origin
-    T[:, :3, :3] = np.stack([axis - origin for axis in axes], axis=2)
-    if not np.isfinite(T).all():
+    origin, *ends = (trial.of(name)[start:stop] for name in PELVIS)
+    axes = np.stack([end - origin for end in ends], axis=2)
+    up = trial.up or _nearest_axis(axes[:, :, 2].mean(axis=0))
+    if not up or not np.isfinite(axes).all():
         return None
-    T[:, :3, :3] /= np.maximum(np.linalg.norm(T[:, :3, :3], axis=1, keepdims=True), 1e-12)
+    T = np.tile(np.eye(4), (len(axes), 1, 1))
+    T[:, :3, 3] = origin @ to_z_up(up).T
+    T[:, :3, :3] = to_z_up(up) @ axes / np.maximum(np.linalg.norm(axes, axis=1, keepdims=True), 1e-12)
     return nearest_pose(T)
+
+
+def _nearest_axis(direction: Array) -> str:
+    """Which axis of the laboratory a direction lies along, or "" where none is within some 30 degrees."""
+    k = int(np.abs(direction).argmax())
+    clear = abs(direction[k]) > 2 * np.linalg.norm(np.delete(direction, k))
+    return f"{'+' if direction[k] > 0 else '-'}{'xyz'[k]}" if clear else ""
 
 
 def _turned(path: Path, data: bytes, layout: c3dheader.Layout) -> dict[str, NDArray[Any]]:
