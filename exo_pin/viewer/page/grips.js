@@ -11,6 +11,7 @@ class Grips {
     Object.assign(this, { holder, stage, grab, ask, release });
     this.grips = [];
     this.held = null; // the grip in the hand
+    this.last = null; // the one that was last in it
   }
 
   load(chain, specs) {
@@ -50,7 +51,7 @@ class Grips {
   hold(grip) {
     if (this.held === grip) return;
     this.grab();
-    this.held = grip;
+    this.held = this.last = grip;
     for (const each of this.grips) each.target = split(each.node.matrixWorld);
   }
 

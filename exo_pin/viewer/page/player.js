@@ -167,11 +167,10 @@ class Player {
     this.poseByHand(q);
     this.sliders.show(q);
     this.grips.show(misses);
-    const { held } = this.grips;
-    if (!held) return;
+    const { last } = this.grips;
     const status = this.part("reach");
-    const said = missing(misses[held.link]);
-    status.textContent = `${held.side} foot ${said}`;
+    const said = missing(misses[last.link]);
+    status.textContent = `${last.side} foot ${said}`;
     status.classList.toggle("short", said !== "reached");
     status.hidden = false;
   }
