@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from os.path import commonprefix
+from difflib import SequenceMatcher
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Machine, Retargeted, retarget
-from exo_pin.viewer import curves, solids
+from exo_pin.viewer import curves
 from exo_pin.viewer.actor import GHOST, Actor, aligned, samples
 from exo_pin.viewer.facts import Chain, Grip, Group
-from exo_pin.viewer.links import GREY, Linkage, linkage
+from exo_pin.viewer.links import Linkage
+from exo_pin.viewer.looks import bare, dressed, highest, plate
 from exo_pin.viewer.meshes import Meshes
 from exo_pin.viewer.motion import Motion, moved, stood
 from exo_pin.viewer.play import Play
-from exo_pin.viewer.protocol import Material, draw, mesh, place, translation
+from exo_pin.viewer.protocol import Material
 from exo_pin.viewer.soles import Sole, soles
 from exo_pin.viewer.world import ROOT, Mount
 
@@ -33,9 +34,6 @@ HEADROOM = 0.06
 
 DIP = 0.005
 """Tips of feet that are less deep in the ground than this need no words [m]."""
-
-PLATE = 0.02
-"""Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""
 
 
 def humanoid(
@@ -53,12 +51,14 @@ def humanoid(
         UnknownNameError: There is no such support.
     """
     machine = result.machine
-    tree, meshes = _tree(machine, f"{ROOT}/exo", _paint(machine.target.paint))
+    color = machine.target.paint
+    paint = None if color is None else Material(color, 0.6, 0.0)
+    tree, meshes = dressed(machine, f"{ROOT}/exo", paint)
     feet = soles(machine, tree.shapes)
     shown = _motion(result, feet, support)
     actors = [_actor(result, shown, tree, feet)]
     if compare is not None:
-        second = retarget(aligned(result.gait, compare), machine.target, result.body)
+        second = retarget(aligned(result.gait, compare), machine, result.body)
         actors.append(_ghost(second, feet, support, compare_title))
     whole = all(len(leg.joints) == WHOLE for leg in machine.legs)
     return Play(
@@ -70,45 +70,9 @@ def humanoid(
         grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs) if whole else (),
         tabs=_tabs(result),
         reference="joint by joint",
-        top=_top(machine, tree) + HEADROOM,
+        top=highest(machine, tree) + HEADROOM,
         notes=(*_notes(result, meshes, tree), *_dips(shown, feet)),
     )
-
-
-def _tree(machine: Machine, root: str, paint: Material | None) -> tuple[Linkage, Meshes]:
-    """The robot's links with their looks.
-
-    Where COLLADA files say that y is up, some tools turn them and some do not, and robots are made for the
-    ones or the others: what is taken is where the meshes cover the joints of their links better.
-    """
-    tried = []
-    for turned in (False, True):
-        meshes = Meshes(machine.robot.path, _height(machine), turned=turned)
-        tree = linkage(machine.robot.urdf, root, paint=paint, meshes=meshes)
-        if not meshes.y_up:
-            return tree, meshes
-        tried.append((_apart(machine, tree), turned, tree, meshes))
-    *_, tree, meshes = min(tried, key=lambda one: one[:2])
-    return tree, meshes
-
-
-def _apart(machine: Machine, tree: Linkage) -> float:
-    """How far the joints that hang on links lie outside of the boxes around their looks, in sum [m]."""
-    robot, apart = machine.robot, 0.0
-    for joint in robot.joints:
-        index = robot.model.frames[robot.frame(joint)].parentFrame
-        link = str(robot.model.frames[index].name)
-        if link in tree.shapes:
-            T_link, T_joint = poses(robot, machine.stand, (link, joint))
-            place = moved(np.linalg.inv(T_link), T_joint[:3, 3])
-            corners = tree.shapes[link].vertices
-            outside = np.maximum(corners.min(axis=0) - place, place - corners.max(axis=0))
-            apart += float(np.maximum(outside, 0.0).sum())
-    return apart
-
-
-def _paint(color: solids.Color | None) -> Material | None:
-    return None if color is None else Material(color, 0.6, 0.0)
 
 
 def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion:
@@ -130,8 +94,8 @@ def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, S
         for turn in tree.turns
     )
     chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
-    plates = [sole for sole in feet if sole.link not in tree.shapes and _bare(result.machine, sole, tree)]
-    commands = (*tree.commands, *(command for sole in plates for command in _plate(tree, sole)))
+    plates = [sole for sole in feet if sole.link not in tree.shapes and bare(result.machine, sole, tree)]
+    commands = (*tree.commands, *(command for sole in plates for command in plate(tree, sole)))
     looks = (*tree.looks, *(f"{tree.links[sole.link]}/plate" for sole in plates))
     title = result.target.title or result.target.name
     return Actor(commands, chain, samples(result.robot, shown, tree, ""), Group(title, looks))
@@ -139,7 +103,7 @@ def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, S
 
 def _ghost(result: Retargeted, feet: tuple[Sole, Sole], support: str, title: str) -> Actor:
     shown = _motion(result, feet, support)
-    tree, _ = _tree(result.machine, f"{ROOT}/ghost", GHOST)
+    tree, _ = dressed(result.machine, f"{ROOT}/ghost", GHOST)
     chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
     arrays = samples(result.robot, shown, tree, "ghost_")
     return Actor(tree.commands, chain, arrays, Group(f"Ghost: {title}", tree.looks))
@@ -149,25 +113,6 @@ def _mount(tree: Linkage, sole: Sole) -> Mount:
     length, width = sole.size
     x, y = sole.middle
     return Mount(tree.links[sole.link], sole.T, (length + 0.007, width + 0.009), (x, y, 0.006))
-
-
-def _bare(machine: Machine, sole: Sole, tree: Linkage) -> bool:
-    """Whether nothing is drawn of a foot, with its fixed parts."""
-    model = machine.robot.model
-    joint = model.frames[machine.robot.frame(sole.link)].parentJoint
-    return not any(frame.parentJoint == joint and frame.name in tree.shapes for frame in model.frames)
-
-
-def _plate(tree: Linkage, sole: Sole) -> list[dict[str, object]]:
-    """A plate for a foot that has no looks."""
-    length, width = sole.size
-    solid = solids.box((length, width, PLATE))
-    x, y = sole.middle
-    path = f"{tree.links[sole.link]}/plate"
-    return [
-        draw(path, mesh(solid.vertices, solid.faces, solid.normals), Material(GREY, 0.6, 0.1)),
-        place(path, sole.T @ translation(x, y, PLATE / 2)),
-    ]
 
 
 def _tabs(result: Retargeted) -> tuple[curves.Tab, ...]:
@@ -195,11 +140,9 @@ def _labels(machine: Machine) -> tuple[str, ...]:
 
 def _shared(left: str, right: str) -> str:
     """`leg_4` of `leg_left_4_joint` and `leg_right_4_joint`: the name without its side."""
-    one, other = (re.sub(r"(?i)left|right", "", name) for name in (left, right))
-    start = len(commonprefix([one, other]))
-    end = 0 if one == other else len(commonprefix([one[start:][::-1], other[start:][::-1]]))
-    name = one if one == other else one[:start] + "_" + one[len(one) - end :]
-    return re.sub(r"[_\W]+", "_", name.removesuffix("_joint")).strip("_")
+    one, other = (re.sub(r"(?i)left|right", "", name).removesuffix("_joint") for name in (left, right))
+    blocks = SequenceMatcher(None, one, other, autojunk=False).get_matching_blocks()
+    return re.sub(r"[_\W]+", "_", "_".join(one[b.a : b.a + b.size] for b in blocks)).strip("_")
 
 
 def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
@@ -234,21 +177,3 @@ def _dips(shown: Motion, feet: tuple[Sole, Sole]) -> list[str]:
         "The rigid feet have no toes: where a person's would bend, their tips are up to "
         f"{-1e3 * low:.0f} mm below the ground."
     ]
-
-
-def _height(machine: Machine) -> float:
-    """From the lowest to the highest joint, standing [m]; at least twice the legs."""
-    robot = machine.robot
-    T = poses(robot, machine.stand, robot.joints)
-    return max(float(np.ptp((T[:, :3, 3] @ machine.turn)[:, 2])), 2 * machine.legs[0].reach)
-
-
-def _top(machine: Machine, tree: Linkage) -> float:
-    """The highest point of the robot above its root, standing [m]."""
-    links = list(tree.shapes)
-    if not links:
-        return 0.0
-    T = poses(machine.robot, machine.stand, links)
-    up = machine.turn[:, 2]
-    rows = zip(links, T, strict=True)
-    return max(float((moved(pose, tree.shapes[link].vertices) @ up).max()) for link, pose in rows)

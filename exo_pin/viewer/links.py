@@ -62,7 +62,7 @@ class Turn:
         axis: Unit axis in the joint's frame.
         kind: `"revolute"` or `"prismatic"`.
         limits: Lower and upper limit [rad, m] for a slider in the page, or None: no slider.
-        side: `"left"` or `"right"`, for the slider's colour; empty: the joint's name begins with it, or never.
+        side: `"left"` or `"right"`, for the slider's colour; empty: what the joint's name begins with.
     """
 
     name: str
