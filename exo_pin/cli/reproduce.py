@@ -106,7 +106,7 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
     phases = [k / _POSES for k in range(_POSES)]
     try:
         model = film.picture(scene, size=_MODEL, **look)
-        poses = film.pictures(scene, phases, camera="left", size=_POSE, **look)
+        poses = film.pictures(scene, phases, camera="left", size=_POSE, legend=False, **look)
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
         return Rendered()
@@ -114,14 +114,17 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
 
 
 def _sheet(shots: Sequence[bytes]) -> bytes:
-    """Pictures side by side in two rows, as PNG."""
-    from PIL import Image
+    """Pictures side by side in two rows, each with its percent of the cycle, as PNG."""
+    from PIL import Image, ImageDraw, ImageFont
 
     half = (len(shots) + 1) // 2
     width, height = _POSE
     sheet = Image.new("RGB", (half * width, 2 * height), "white")
+    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(24)
     for k, shot in enumerate(shots):
-        sheet.paste(Image.open(io.BytesIO(shot)), (k % half * width, k // half * height))
+        x, y = k % half * width, k // half * height
+        sheet.paste(Image.open(io.BytesIO(shot)), (x, y))
+        pen.text((x + 14, y + 12), f"{100 * k / len(shots):.0f} %", fill="#1d2733", font=font)
     file = io.BytesIO()
     sheet.save(file, "PNG", optimize=True)
     return file.getvalue()

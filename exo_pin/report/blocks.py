@@ -51,7 +51,10 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Figure:
-    """Drawings side by side under one caption; `columns` at most (3: small, 2, 1: full width)."""
+    """Drawings side by side under one caption; `columns` at most (3: small, 2, 1: full width).
+
+    A single drawing that is not of full width has what follows beside it.
+    """
 
     drawings: tuple[Drawing, ...]
     caption: str = ""

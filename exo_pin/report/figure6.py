@@ -30,7 +30,10 @@ def recovered(gait: Gait, recording: Gait | None, answers: list[Answer]) -> Sect
     """Charts of what `answers` found, and the table of errors."""
     first, *others = answers
     blocks: list[Block] = [
-        Figure(_over(gait, first, "fig6_own"), f"Fig. 6. {first.title}: exact by construction.")
+        Figure(
+            _over(gait, first, "fig6_own"),
+            f"Fig. 6. {first.title[:1].upper()}{first.title[1:]}: exact by construction.",
+        )
     ]
     if recording is not None:
         outside = int((~others[1].within).sum())

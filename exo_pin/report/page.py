@@ -68,8 +68,11 @@ def _figure(block: Figure) -> str:
         pictures.append(f"<div>{drawing.svg or image}</div>")
     caption = f"<figcaption>{escape(block.caption)}</figcaption>" if block.caption else ""
     grid = "\n".join(pictures)
+    alone = len(block.drawings) == 1
     kind = "grid full" if block.columns == 1 else "grid"
-    return f'<figure><div class="{kind}" style="--columns: {block.columns}">{grid}</div>{caption}</figure>'
+    half = ' class="half"' if alone and block.columns > 1 else ""
+    columns = 1 if half else block.columns
+    return f'<figure{half}><div class="{kind}" style="--columns: {columns}">{grid}</div>{caption}</figure>'
 
 
 def _tiles(block: Tiles) -> str:

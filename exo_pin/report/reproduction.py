@@ -11,6 +11,7 @@ from exo_pin.report import angles, loop, skeleton
 from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Table, Words
 from exo_pin.report.cycle import legs
 from exo_pin.report.figure6 import answers, recovered
+from exo_pin.report.points import overview
 from exo_pin.robot import Robot
 
 PAPER = (
@@ -52,7 +53,7 @@ def reproduction(
     pictures = rendered or Rendered()
     found = answers(robot, gait, recording, recording_name)
     sections = (
-        _overview(recording_name if recording is not None else "", bool(pictures.model)),
+        overview(recording_name if recording is not None else "", rendered=bool(pictures.model)),
         _frames(robot),
         _loop(robot, gait),
         _model(robot, pictures),
@@ -62,55 +63,6 @@ def reproduction(
     )
     subtitle = f"{PAPER}. {when}".strip()
     return Document("The paper's figures, reproduced with exo_pin", subtitle, sections)
-
-
-def _overview(recording: str, rendered: bool) -> Section:
-    data = "Schwartz 2008 at free speed" + (f" and {recording}" if recording else "")
-    drawn = "rendered in the browser" if rendered else "as a line drawing (no browser was used in this run)"
-    rows = (
-        (
-            "Fig. 1: coordinate frames",
-            "World frame on the ground between the feet; body and 12 joints, all parallel at the start",
-            "The same frames, of our model at q = 0, with origins, axes and the deviation from parallel",
-            "Segment lengths: ours are anthropometric",
-        ),
-        (
-            "Fig. 2: inverse kinematics",
-            "Guess, forward kinematics, compare the foot pose, correct, repeat",
-            "The loop as our iterative solver runs it, and its error after each correction",
-            "Tolerance and treatment of joint limits: ours are stated",
-        ),
-        (
-            "Fig. 3: three-dimensional model",
-            "The 3-D model of the exoskeleton",
-            f"Our model, {drawn}",
-            "Shapes and colours are ours",
-        ),
-        (
-            "Fig. 4: input gait",
-            "Clinical gait curves (Hong Kong Polytechnic University, clinicalgaitanalysis.com)",
-            f"{data}, with bands of 1 standard deviation. Not the paper's curves number by number",
-            "Its numbers could not be found; nothing here is read off its picture",
-        ),
-        (
-            "Fig. 5: ten poses",
-            "Ten poses of one gait cycle, axes in cm",
-            "Ten poses of one cycle of Schwartz's walk, axes in cm",
-            "The body's size in its picture; ours is stated with the figure",
-        ),
-        (
-            "Fig. 6: recovered joint curves",
-            "Curves recovered by inverse kinematics (dotted) over the measured ones (solid)",
-            "The same, exact by construction since the feet are the model's own; and cases that are not: "
-            + ("a recording, and " if recording else "")
-            + "feet with 1, 3 and 5 mm of noise",
-            "How errors of the feet's positions become errors of angles",
-        ),
-    )
-    columns = ("point", "the paper", "this page", "open in the paper, or not at hand")
-    table = Table(columns, rows, prose=True)
-    words = "Point by point. Every number below was computed in this run."
-    return Section("What the paper shows and what this page shows", (Words(words), table))
 
 
 def _frames(robot: Robot) -> Section:

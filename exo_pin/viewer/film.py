@@ -30,7 +30,7 @@ SIDES = (16, 8192)
 _NO_HANDS = "#grips { display: none !important }"
 _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
-#app { display: block !important } #view { position: fixed !important; inset: 0 }
+#app { display: block !important } #view { position: fixed !important; inset: 0 } #pane { inset: 0 !important }
 """
 
 
@@ -70,12 +70,14 @@ def pictures(
     size: tuple[int, int] = (1920, 1080),
     curves: bool = False,
     quality: str = "high",
+    legend: bool = True,
 ) -> list[bytes]:
-    """Several moments as PNG, by one browser; arguments and errors as of `picture`."""
+    """Several moments as PNG, by one browser, with or without the legend; else as `picture`."""
     for phase in phases:
         if not 0 <= phase <= 1:
             raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
     with _page(scene, camera, size, curves, quality) as browser:
+        browser.evaluate(f"document.getElementById('legend').hidden = {'false' if legend else 'true'}")
         return list(_shots(browser, phases))
 
 
