@@ -10,9 +10,10 @@ from exo_pin.anatomy import JOINTS, Body
 from exo_pin.cli import main
 from exo_pin.errors import UnknownNameError
 from exo_pin.feasible import feasible, nearest
-from exo_pin.feasible.verdict import FASTEST, MOST, scaled
+from exo_pin.feasible.scale import MOST, scaled
+from exo_pin.feasible.verdict import FASTEST, runs
 from exo_pin.formats import load_gait
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.robot import load_robot
 
 GAIT = normative_gait().resampled(50)
@@ -28,7 +29,7 @@ def free():
 def test_the_normal_walk_can_be_done(free):
     assert free.ok
     assert not free.failures
-    assert not free.dropped
+    assert not set(free.dropped) & set(JOINTS)
     assert free.cadence > 1
     assert free.amplitude > 1
 
@@ -69,7 +70,7 @@ def test_a_recording_that_hyperextends_is_refused_and_its_amplitude_told(shared)
 def test_locked_joints_are_told_and_do_not_enter_the_verdict():
     verdict = feasible(GAIT, "hk4")
     assert verdict.ok
-    assert len(verdict.dropped) == 8
+    assert len(verdict.dropped) == 8  # its pelvis goes with the person
     assert verdict.dropped["left_ankle_dorsiflexion"] == pytest.approx(
         np.abs(GAIT.q[:, JOINTS.index("left_ankle_dorsiflexion")]).max()
     )
@@ -144,3 +145,71 @@ def test_the_command_answers_with_its_exit_code(capsys):
 def test_unknown_devices_are_refused():
     with pytest.raises(UnknownNameError):
         feasible(GAIT, "hal")
+
+
+def _swaying(amount):
+    """The normal walk, its pelvis going aside by `amount` and back once a cycle [m]."""
+    base = np.array(GAIT.base)
+    base[:, 1, 3] += amount * np.sin(2 * np.pi * np.arange(50) / 50)
+    return dataclasses.replace(GAIT, base=base)
+
+
+def test_slides_are_asked_what_the_pelvis_does():
+    verdict = feasible(_swaying(0.04), "lopes8")
+    aside = next(d for d in verdict.joints if d.joint == "pelvis_left")
+    assert aside.slide
+    assert aside.q == pytest.approx(0.04 * np.sin(2 * np.pi * np.arange(50) / 50), abs=1e-9)
+    assert aside.margin == pytest.approx(0.06, abs=1e-3)
+    assert np.abs(aside.dq).max() == pytest.approx(0.04 * 2 * np.pi / GAIT.duration)
+    assert verdict.ok
+    far = feasible(_swaying(0.11), "lopes8")
+    assert [(name, how) for name, how, _ in far.failures] == [("pelvis_left", "outside its range")]
+    assert not far.cadence_decides
+    assert far.amplitude == 0  # smaller steps do not keep the pelvis still
+
+
+def test_what_the_device_holds_of_the_pelvis_is_told_and_does_not_count():
+    verdict = feasible(_swaying(0.04), "lokomat")
+    assert verdict.ok
+    assert verdict.dropped["pelvis_left"] == pytest.approx(0.04, abs=1e-3)
+    assert "pelvis_up" not in verdict.dropped
+    assert 0.05 < verdict.dropped["pelvis_turn"] < 0.4
+    assert not [name for name in feasible(_swaying(0.04), "h2").dropped if name.startswith("pelvis")]
+
+
+def test_known_torques_count_and_unknown_ones_do_not():
+    tau = np.full((50, 12), np.nan)
+    tau[:, KNEE] = 30 * np.sin(2 * np.pi * np.arange(50) / 50)
+    verdict = feasible(GAIT, torques=Torques(GAIT.time, tau))
+    knee = next(d for d in verdict.joints if d.joint == "left_knee_flexion")
+    assert knee.torque_use == pytest.approx(np.nanmax(np.abs(tau)) / knee.effort)
+    assert [d.joint for d in verdict.joints if d.torque_use is not None] == ["left_knee_flexion"]
+    assert verdict.ok
+    strong = feasible(GAIT, torques=Torques(GAIT.time, 10 * tau))
+    assert [(name, how) for name, how, _ in strong.failures] == [("left_knee_flexion", "too much torque")]
+    assert np.array_equal(strong.failures[0][2], np.abs(10 * tau[:, KNEE]) > knee.effort)
+    assert not any((strong.ok, strong.cadence_decides, strong.amplitude_decides))
+
+
+def test_runs_are_first_and_last_samples():
+    mask = np.array([1, 0, 1, 1, 0, 0, 1], dtype=bool)
+    assert runs(mask) == [(0, 0), (2, 3), (6, 6)]
+    assert runs(~mask) == [(1, 1), (4, 5)]
+    assert runs(mask[:0]) == []
+
+
+def test_the_command_says_where_and_under_what_conditions(capsys, tmp_path):
+    words = ["feasible", "free", "--device", "lopes8", "--acceleration", "20"]
+    assert main(words) == 1
+    said = capsys.readouterr().out
+    assert "ankle is held" in said  # the device's own remark
+    assert "torques are not asked" in said
+    assert "NOT OK left_knee_flexion: accelerated too hard in" in said
+    assert main([*words, "--json"]) == 1
+    facts = json.loads(capsys.readouterr().out)
+    failure = facts["failures"][0]
+    assert sum(b - a + 1 for a, b in failure["frames"]) == failure["samples"]
+    path = tmp_path / "tau.csv"
+    path.write_text("time_s,left_knee_flexion_torque_nm\n0,500\n2,500\n")
+    assert main(["feasible", "free", "--torques", str(path)]) == 1
+    assert "left_knee_flexion: too much torque in 100 frames (0-99" in capsys.readouterr().out

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show
+from exo_pin.cli import options, show, torques
 
 if TYPE_CHECKING:
     from exo_pin.feasible import Feasibility, JointDemand
@@ -15,9 +15,11 @@ _EXAMPLES = """examples:
   exo-pin feasible                               the normal walk on the 12-joint exoskeleton
   exo-pin feasible walk.mot --device lokomat --stature 1.82 --mass 80
   exo-pin feasible very_fast --gap 10 --json
+  exo-pin feasible walk.mot --torques id.sto     its torques as well, where they are known
 
-Joint ranges, speeds and accelerations, self-collision and reach; torques are not asked. Joints that the
-device locks are dropped and told. exit code 0: it can; 1: it cannot"""
+Ranges, speeds and accelerations of joints and slides, self-collision and reach; torques if they are given.
+Joints that the device locks are dropped and told, and so is what the pelvis does and the device does not let
+it; exo-pin compare says what that costs. exit code 0: it can; 1: it cannot"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gap", type=float, default=0.0, metavar="MM", help="distance that parts must keep [mm] (default: 0)"
     )
+    torques.add(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
@@ -47,7 +50,8 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError("--acceleration must be positive, --gap a number")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
-    verdict = feasible(gait, args.device, body, acceleration=acceleration, gap=args.gap / 1e3)
+    known, gap = torques.given(args), args.gap / 1e3
+    verdict = feasible(gait, args.device, body, acceleration=acceleration, gap=gap, torques=known)
     if args.json:
         show.as_json(verdict.facts())
     else:
@@ -56,42 +60,78 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(verdict: Feasibility, name: str) -> None:
-    columns = ["joint", "asked deg", "range deg", "margin deg", "speed used", "accel. used", ""]
-    show.table(f"{name} on {verdict.robot.name}", columns, [_row(d) for d in verdict.joints])
     facts = verdict.facts()
+    _print_demands(f"{name} on {verdict.robot.name}", "deg", [d for d in verdict.joints if not d.slide])
+    _print_demands("Slides of the pelvis", "mm", [d for d in verdict.joints if d.slide])
     pair = " and ".join(facts["clearance_between"])
     spare = ", ".join(f"{side} {show.fixed(x)} mm" for side, x in facts["reach_to_spare_mm"].items())
     print(f"nearest parts: {show.fixed(facts['clearance_mm'])} mm between {pair}")
     print(f"reach to spare between hip and ankle: {spare}")
-    if verdict.dropped:
-        told = ", ".join(f"{joint} {show.fixed(x)}" for joint, x in facts["dropped_deg"].items())
-        print(f"locked joints, the walk asks of them up to [deg]: {told}")
-    print(f"possible: {_factors(verdict)}")
+    told = [
+        f"{name} {show.fixed(x)} {unit}"
+        for unit in ("deg", "mm")
+        for name, x in facts[f"dropped_{unit}"].items()
+        if x >= _TOLD
+    ]
+    if told:
+        print(f"asked, but locked or held here, up to: {', '.join(told)}")
+    print(f"possible: {_cadence(verdict)}; {_amplitude(verdict)}")
+    for sentence in facts["conditions"]:
+        print(f"note: {sentence}")
     for failure in facts["failures"]:
-        where = f" ({', '.join(failure['phases'])})" if failure["phases"] else ""
-        print(f"NOT OK {failure['what']}: {failure['how']} in {failure['samples']} frames{where}")
+        print(f"NOT OK {_failure(failure)}")
     print("verdict: " + ("the device can do this walk" if verdict.ok else "NO"))
 
 
-def _factors(verdict: Feasibility) -> str:
-    cadence = f"up to {math.floor(100 * verdict.cadence) / 100:.2f} times the cadence"
-    gait = verdict.gait
-    if gait.periodic:
-        steps = 120 / gait.duration
-        cadence += f" ({steps:.0f} -> {math.floor(steps * verdict.cadence)} steps/min)"
-    return f"{cadence}, or {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
+_TOLD = 0.05
+"""What is asked of locked joints is told from here on [deg, mm]: the last digit that is printed."""
+
+
+def _print_demands(title: str, unit: str, demands: list[JointDemand]) -> None:
+    """A table of what joints are asked; accelerations and torques only where they are known."""
+    columns = ["joint", f"asked {unit}", f"range {unit}", f"margin {unit}", "speed %", "acc. %", "torque %"]
+    rows = [_row(demand) for demand in demands]
+    kept = [k for k in range(len(columns)) if any(row[k] != "-" for row in rows)]
+    if rows:
+        verdicts = ["ok" if demand.ok else "NO" for demand in demands]
+        lines = [[*(row[k] for k in kept), word] for row, word in zip(rows, verdicts, strict=True)]
+        show.table(title, [*(columns[k] for k in kept), ""], lines)
+
+
+def _failure(failure: dict[str, Any]) -> str:
+    frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure["frames"])
+    where = f"; {', '.join(failure['phases'])}" if failure["phases"] else ""
+    return f"{failure['what']}: {failure['how']} in {failure['samples']} frames ({frames}{where})"
+
+
+def _cadence(verdict: Feasibility) -> str:
+    if not verdict.cadence_decides:
+        return "at no cadence (what fails does not depend on it)"
+    text = f"up to {math.floor(100 * verdict.cadence) / 100:.2f} times the cadence"
+    if verdict.gait.periodic:
+        steps = 120 / verdict.gait.duration
+        text += f" ({steps:.0f} -> {math.floor(steps * verdict.cadence)} steps/min)"
+    return text
+
+
+def _amplitude(verdict: Feasibility) -> str:
+    if not verdict.amplitude_decides:
+        return "torques at another amplitude are not known"
+    if not verdict.amplitude:
+        return "at no amplitude of the joints"
+    return f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
 
 
 def _row(demand: JointDemand) -> list[str]:
-    def degrees(low: float, high: float) -> str:
-        return f"{show.fixed(math.degrees(low))} .. {show.fixed(math.degrees(high))}"
-
+    scale = 1e3 if demand.slide else math.degrees(1.0)
+    low, high = scale * float(demand.q.min()), scale * float(demand.q.max())
+    torque, hardest = demand.torque_use, demand.acceleration
     return [
         demand.joint,
-        degrees(float(demand.q.min()), float(demand.q.max())),
-        degrees(demand.lower, demand.upper),
-        show.fixed(math.degrees(demand.margin)),
-        f"{100 * demand.speed_use:.0f} %",
-        f"{100 * demand.acceleration_use:.0f} %",
-        "ok" if demand.ok else "NOT OK",
+        f"{show.fixed(low)} .. {show.fixed(high)}",
+        f"{show.fixed(scale * demand.lower, 0)}..{show.fixed(scale * demand.upper, 0)}",
+        show.fixed(scale * demand.margin),
+        show.fixed(100 * demand.speed_use, 0),
+        "-" if math.isinf(hardest) else show.fixed(100 * demand.acceleration_use, 0),
+        "-" if torque is None else show.fixed(100 * torque, 0),
     ]

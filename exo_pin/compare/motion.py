@@ -10,7 +10,6 @@ taken that keeps its speeds, too.
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -25,6 +24,7 @@ from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.ik.paced import paced
 from exo_pin.kinematics import center_of_mass, poses
+from exo_pin.kinematics.stand import stand
 from exo_pin.robot import Robot, load_robot
 
 Array = npt.NDArray[np.float64]
@@ -196,16 +196,7 @@ def _stand(recorded: Walk, robot: Robot, conditions: Conditions) -> Array:
     """T_world_stand (n, 4, 4): what the pelvis, or its slides, rest on."""
     if conditions.pelvis == "recorded" or (robot.device is not None and robot.device.pelvis == "free"):
         return recorded.base
-    place = recorded.base[:, :3, 3]
-    stand = np.tile(np.eye(4), (len(place), 1, 1))
-    stand[:, :3, 3] = place.mean(axis=0)
-    if not recorded.gait.periodic:  # a walk over ground: the stand goes evenly along
-        time = recorded.gait.time - recorded.gait.time.mean()
-        stand[:, :2, 3] += np.outer(time, time @ place[:, :2] / (time @ time))
-    forward = recorded.base[:, :2, 0].mean(axis=0)
-    c, s = forward / math.hypot(*forward)
-    stand[:, :2, :2] = [[c, -s], [s, c]]
-    return stand
+    return stand(recorded.gait.time, recorded.base, periodic=recorded.gait.periodic)
 
 
 def _motion(recorded: Walk, robot: Robot, q: Array, base: Array, asked: Array) -> Motion:

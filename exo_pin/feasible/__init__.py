@@ -1,6 +1,6 @@
 """Whether a device can do a walk with a person: limits, self-collision, reach, and how much is possible.
 
-Torques are not asked here: they need the ground's forces.
+Torques are asked where they are given (`exo_pin.gait.Torques`): working them out needs the ground's forces.
 """
 
 from exo_pin.feasible.collision import Nearest, nearest

@@ -10,11 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
-from exo_pin.devices import Device
+from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import GaitError
 from exo_pin.feasible.collision import Nearest, nearest
-from exo_pin.feasible.limits import ACCELERATION, JointDemand, demands
-from exo_pin.gait import Gait
+from exo_pin.feasible.limits import ACCELERATION, ROUNDING, JointDemand, demands
+from exo_pin.feasible.pelvis import dropped, slides
+from exo_pin.feasible.scale import amplitude
+from exo_pin.gait import Gait, Torques
 from exo_pin.gait.phases import PHASES, percent
 from exo_pin.kinematics import events
 from exo_pin.robot import Robot, load_robot
@@ -22,13 +24,8 @@ from exo_pin.robot import Robot, load_robot
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-MOST = 3.0
-"""Amplitudes are sought up to this factor."""
-
 FASTEST = 10.0
 """Cadences are sought up to this factor."""
-
-_STEPS = 12  # halvings of the interval of amplitudes: to a thousandth
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +39,11 @@ class Feasibility:
         nearest: Distance between its parts.
         gap: Distance that the parts must keep [m].
         reach: By side: least reach to spare between hip and ankle [m]; negative: too far by that much.
-        dropped: By locked joint: the largest angle that the walk asks of it [rad]; it does not enter the
-            verdict (`exo_pin.compare` says what it costs).
+        dropped: By locked joint: the largest angle that the walk asks of it [rad]; and what the pelvis does
+            and the device does not let it (`pelvis.dropped`) [m, rad]. It does not enter the verdict
+            (`exo_pin.compare` says what it costs).
         cadence: Largest factor on the speed of the whole walk that speeds and accelerations allow; at most
-            `FASTEST`.
+            `FASTEST`; no cadence helps where something else fails (`cadence_decides`).
         amplitude: Largest factor on every joint's movement about its mean that the limits and the gap allow,
             at the walk's own cadence; at most `MOST`; 0 where not even the mean posture is possible.
     """
@@ -71,8 +69,22 @@ class Feasibility:
         return (
             all(demand.ok for demand in self.joints)
             and not bool(self.colliding.any())
-            and min(self.reach.values()) >= -1e-9
+            and min(self.reach.values()) >= -ROUNDING
         )
+
+    @property
+    def cadence_decides(self) -> bool:
+        """Whether speeds and accelerations are all that may fail: ranges and gaps know no cadence."""
+        return not (
+            any((demand.outside | demand.too_strong).any() for demand in self.joints)
+            or self.colliding.any()
+            or min(self.reach.values()) < -ROUNDING
+        )
+
+    @property
+    def amplitude_decides(self) -> bool:
+        """Whether the amplitude helps at all: torques at another one are not known."""
+        return not any(demand.too_strong.any() for demand in self.joints)
 
     @property
     def failures(self) -> list[tuple[str, str, Mask]]:
@@ -81,6 +93,7 @@ class Feasibility:
             ("outside", "outside its range"),
             ("too_fast", "too fast"),
             ("too_hard", "accelerated too hard"),
+            ("too_strong", "too much torque"),
         )
         found = [
             (demand.joint, text, getattr(demand, kind))
@@ -91,13 +104,25 @@ class Feasibility:
         if self.colliding.any():
             a, b = self.nearest.pairs[int(self.nearest.distance.argmin())]
             found.append((f"{a} and {b}", "too near", self.colliding))
-        return found
+        return found + [
+            (f"{side} leg", "out of reach", np.ones(len(self.gait), dtype=bool))
+            for side, slack in self.reach.items()
+            if slack < -ROUNDING
+        ]
 
     def phases(self, mask: Mask, name: str) -> list[str]:
         """Phases of the cycle in which marked samples lie: of the foot on the joint's side, else the left."""
         side = next((s for s in SIDES if name.startswith(s)), SIDES[0])
         share = percent(self.gait, side)[mask]
         return [p for p, (low, high) in PHASES.items() if ((share >= low) & (share < high)).any()]
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """What the verdict takes for granted, in sentences."""
+        known = any(demand.torque_use is not None for demand in self.joints)
+        torques = "torques as given" if known else "torques are not asked"
+        plain = f"the joints copy the walk, locked and passive ones at zero; {torques}"
+        return (plain, *(() if self.robot.device is None else self.robot.device.remarks))
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain values for JSON."""
@@ -110,12 +135,22 @@ class Feasibility:
             "clearance_between": self.nearest.pairs[least],
             "reach_to_spare_mm": {side: 1e3 * slack for side, slack in self.reach.items()},
             "failures": [
-                {"what": name, "how": how, "samples": int(mask.sum()), "phases": self.phases(mask, name)}
+                {
+                    "what": name,
+                    "how": how,
+                    "samples": int(mask.sum()),
+                    "frames": runs(mask),
+                    "phases": self.phases(mask, name),
+                }
                 for name, how, mask in self.failures
             ],
-            "dropped_deg": {joint: float(np.degrees(x)) for joint, x in self.dropped.items()},
-            "largest_cadence_factor": self.cadence,
-            "largest_amplitude_factor": self.amplitude,
+            "dropped_deg": {
+                joint: float(np.degrees(x)) for joint, x in self.dropped.items() if joint not in SLIDES
+            },
+            "dropped_mm": {joint: 1e3 * x for joint, x in self.dropped.items() if joint in SLIDES},
+            "conditions": list(self.conditions),
+            "largest_cadence_factor": self.cadence if self.cadence_decides else None,
+            "largest_amplitude_factor": self.amplitude if self.amplitude_decides else None,
         }
 
 
@@ -126,8 +161,9 @@ def feasible(
     *,
     acceleration: float = ACCELERATION,
     gap: float = 0.0,
+    torques: Torques | None = None,
 ) -> Feasibility:
-    """Whether a device can do a walk with a person, the pelvis moving as recorded.
+    """Whether a device can do a walk with a person, the pelvis moving as its slides let it.
 
     Args:
         gait: The walk. A recording's accelerations carry its noise: filter it first.
@@ -135,16 +171,18 @@ def feasible(
         body: Who wears it; `Body.from_stature()` if left out.
         acceleration: Largest acceleration of every joint [rad/s^2].
         gap: Distance that parts of the device must keep [m].
+        torques: What the walk asks of the joints, on its clock; torques are not asked if left out.
 
     Raises:
         UnknownNameError: The device is unknown.
+        GaitError: The torques are on another clock.
     """
     robot = load_robot(body, device=device)
     full = np.array(gait.q)
     done = dataclasses.replace(robot.to_gait(robot.from_gait(gait), gait), base=gait.base)
     if not done.events:
         done = _with_events(robot, done)
-    asked = demands(robot, done, acceleration=acceleration)
+    asked = demands(robot, done, acceleration=acceleration, torques=torques) + slides(robot, gait)
     locked = [k for k, joint in enumerate(JOINTS) if joint not in robot.joints]
     return Feasibility(
         robot=robot,
@@ -153,35 +191,10 @@ def feasible(
         nearest=nearest(robot, robot.from_gait(done)),
         gap=gap,
         reach={side: _reach(robot, done, side) for side in SIDES},
-        dropped={JOINTS[k]: float(np.abs(full[:, k]).max()) for k in locked},
+        dropped={JOINTS[k]: float(np.abs(full[:, k]).max()) for k in locked} | dropped(robot, gait),
         cadence=min(FASTEST, *(demand.cadence for demand in asked)),
-        amplitude=_amplitude(robot, done, asked, gap),
+        amplitude=amplitude(robot, done, asked, gap),
     )
-
-
-def scaled(gait: Gait, factor: float) -> Gait:
-    """The walk with every joint's movement about its mean made larger or smaller."""
-    middle = gait.q.mean(axis=0)
-    return dataclasses.replace(gait, q=middle + factor * (gait.q - middle))
-
-
-def _amplitude(robot: Robot, gait: Gait, asked: list[JointDemand], gap: float) -> float:
-    """The limits are linear in the factor; of the collisions it is assumed that more movement is no safer."""
-    high = min(MOST, *(demand.amplitude for demand in asked))
-    if _apart(robot, gait, high, gap):
-        return high
-    if not _apart(robot, gait, 0.0, gap):
-        return 0.0
-    low = 0.0
-    for _ in range(_STEPS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if _apart(robot, gait, middle, gap) else (low, middle)
-    return low
-
-
-def _apart(robot: Robot, gait: Gait, factor: float, gap: float) -> bool:
-    q = robot.from_gait(scaled(gait, factor))
-    return bool((nearest(robot, q).distance >= gap).all())
 
 
 def _reach(robot: Robot, gait: Gait, side: str) -> float:
@@ -204,16 +217,24 @@ def _with_events(robot: Robot, gait: Gait) -> Gait:
         return gait
 
 
+def runs(mask: Mask) -> list[tuple[int, int]]:
+    """The marked samples as runs: first and last sample of each."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
 def _demand(demand: JointDemand) -> dict[str, Any]:
-    degrees = {
-        "min_deg": demand.q.min(),
-        "max_deg": demand.q.max(),
-        "lower_deg": demand.lower,
-        "upper_deg": demand.upper,
-        "margin_deg": demand.margin,
+    unit, scale = ("mm", 1e3) if demand.slide else ("deg", float(np.degrees(1.0)))
+    values = {
+        "min": demand.q.min(),
+        "max": demand.q.max(),
+        "lower": demand.lower,
+        "upper": demand.upper,
+        "margin": demand.margin,
     }
-    return {name: float(np.degrees(x)) for name, x in degrees.items()} | {
+    return {f"{name}_{unit}": float(scale * x) for name, x in values.items()} | {
         "speed_use": demand.speed_use,
         "acceleration_use": demand.acceleration_use,
+        "torque_use": demand.torque_use,
         "ok": demand.ok,
     }

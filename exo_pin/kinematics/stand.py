@@ -1,0 +1,27 @@
+"""Where a pelvis would stand if a device held it: upright at its mean place, looking its mean way."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def stand(time: Array, base: Array, *, periodic: bool) -> Array:
+    """T_world_stand (n, 4, 4) for a pelvis T_world_pelvis (n, 4, 4) at times (n,) [s].
+
+    It goes evenly along with a walk over ground, and stands still under a periodic one.
+    """
+    place = base[:, :3, 3]
+    held = np.tile(np.eye(4), (len(place), 1, 1))
+    held[:, :3, 3] = place.mean(axis=0)
+    if not periodic:
+        away = time - time.mean()
+        held[:, :2, 3] += np.outer(away, away @ place[:, :2] / (away @ away))
+    forward = base[:, :2, 0].mean(axis=0)
+    c, s = forward / math.hypot(*forward)
+    held[:, :2, :2] = [[c, -s], [s, c]]
+    return held
