@@ -1,5 +1,6 @@
 /* Player: joins clock, motion, stage, plots and controls; the only place where they meet. */
 
+const GRIPS_HINT = "The rings at the feet can be dragged, or moved by the arrow keys: the legs follow.";
 const REPORT = 500; // [ms] between reports of the playback's state
 
 class Player {
@@ -75,7 +76,7 @@ class Player {
     this.stage.load(header, commands);
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
-    this.sliders.load(header.chains[0]);
+    this.sliders.load(header.chains[0], header.grips.length ? GRIPS_HINT : "");
     this.reach = new Reach(this.chains[0]);
     this.grips.load(this.chains[0], header.grips);
     fillToggles(this.part("toggles"), header.groups, this.stage);
@@ -88,7 +89,7 @@ class Player {
     const t = this.clock.time;
     const at = this.motion.at(t);
     this.byHand = false;
-    this.part("reach").hidden = true;
+    this.say("");
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
@@ -151,7 +152,17 @@ class Player {
     const { base } = this.chains[0].spec;
     this.chains[0].set([...q], this.motion.pose(base, this.motion.at(this.clock.time)));
     this.marks.hide();
+    this.say("posed by hand; the curves are the walk's");
     this.stage.viewer.set_dirty();
+  }
+
+  /** What the hand should know, or nothing; the curves step back while the walk is not what is shown. */
+  say(text, short = false) {
+    const status = this.part("reach");
+    status.textContent = text;
+    status.hidden = !text;
+    status.classList.toggle("short", short);
+    this.part("plots").classList.toggle("aside", Boolean(text));
   }
 
   /** A hand takes a foot: from here on, what is shown is no longer the walk. */
@@ -168,11 +179,8 @@ class Player {
     this.sliders.show(q);
     this.grips.show(misses);
     const { last } = this.grips;
-    const status = this.part("reach");
     const said = missing(misses[last.link]);
-    status.textContent = `${last.side} foot ${said}`;
-    status.classList.toggle("short", said !== "reached");
-    status.hidden = false;
+    this.say(`${last.side} foot ${said}`, said !== "reached");
   }
 
   toggle() {

@@ -12,12 +12,13 @@ class Sliders {
     new ResizeObserver(() => this.show(this.q)).observe(holder); // they come into view
   }
 
-  load(chain) {
+  load(chain, hint) {
     this.joints = chain.joints;
     this.q = chain.joints.map(() => 0);
     const limited = chain.joints.map((joint, k) => ({ joint, k })).filter(({ joint }) => joint.limits);
     this.rows = limited.map(({ joint, k }) => this.row(joint, k));
-    this.holder.replaceChildren(...this.rows.map((row) => row.label));
+    const note = Object.assign(document.createElement("p"), { textContent: hint });
+    this.holder.replaceChildren(...this.rows.map((row) => row.label), note);
   }
 
   row(joint, k) {
