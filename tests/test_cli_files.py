@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
 
-from exo_pin.anatomy import JOINTS
-from exo_pin.cli import main
+from exo_pin.anatomy import JOINTS, Body
+from exo_pin.cli import main, options
 from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import Gait, normative_gait
 
+OPENSIM_RMS = 0.0225  # [m] OpenSim's own on that trial
 EXACT = 1e-9  # [rad] degrees in text and back
 
 
@@ -193,8 +195,29 @@ def test_a_marker_trial_is_solved_on_its_own_body(capsys, tmp_path, shared, comm
     code, out, err = run(capsys, command, trial, *words)
     assert code == 0
     assert "RMS" in err
+    assert re.search(r"furthest marker [RL]\.\S+ \d+\.\d mm at", err)
     if command == "info":
-        assert len(json.loads(out)["events"]) == 8
+        facts = json.loads(out)
+        assert len(facts["events"]) == 8
+        assert len(facts["markers"]["frame_rms_mm"]) == len(facts["markers"]["frame_worst_mm"]) == 151
+        assert 5 < facts["markers"]["rms_mm"] < 1e3 * OPENSIM_RMS
+
+
+def test_a_model_tells_how_a_motion_is_meant(capsys, tmp_path, shared):
+    folder = shared / "opensim_subject01_walk"
+    words = ["convert", folder / "subject01_walk1_ik.mot", tmp_path / "walk.csv"]
+    code, _, err = run(capsys, *words, "--model", folder / "subject01_simbody.osim")
+    assert code == 0
+    assert "as subject01_simbody.osim has them" in err
+    code, _, err = run(capsys, *words, "--pelvis-order", "rotation,list,tilt")
+    assert "the order rotation, list, tilt" in err
+    code, _, err = run(capsys, "convert", "free", tmp_path / "x.csv", "--model", "a.osim")
+    assert (code, len(err.splitlines())) == (2, 1)
+
+
+def test_a_second_walk_may_be_a_marker_trial(shared):
+    trial = shared / "opensim_subject01_walk/subject01_walk1.trc"
+    assert "markers (opensim-gait2354)" in options.load(str(trial), Body()).source
 
 
 def test_what_is_no_gait_is_refused_in_one_line(capsys, tmp_path, shared):

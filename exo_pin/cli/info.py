@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from exo_pin.cli import cycles, options, outliers, show
+from exo_pin.cli import cycles, options, outliers, show, trials
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
@@ -95,6 +95,7 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
         ],
         "events_note": note,
+        "markers": trials.facts(args),
         "outliers": outliers.facts(gait),
         "doubts": list(doubts(gait)),
         **cycles.facts(robot, gait),

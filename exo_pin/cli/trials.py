@@ -8,6 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from exo_pin.errors import DescriptionError, FormatError
 
 if TYPE_CHECKING:
@@ -111,14 +113,37 @@ def gait(args: argparse.Namespace) -> Gait | None:
         return None
     if args.model or args.pelvis_order:
         raise FormatError(args.gait, "a model and an order of the pelvis's turns are for .mot and .sto files")
-    worst = trial.worst.max() * 1e3
-    print(
-        f"markers ({trial.marker_set}): RMS {trial.total_rms * 1e3:.1f} mm, worst frame "
-        f"{trial.rms.max() * 1e3:.1f} mm, furthest marker {worst:.1f} mm; body scaled to "
-        f"{trial.body.stature:.2f} m",
-        file=sys.stderr,
-    )
+    print(sentence(trial), file=sys.stderr)
     return trial.gait
+
+
+def sentence(trial: Reconstruction) -> str:
+    """How well the markers are met."""
+    k, marker = divmod(int(np.nanargmax(trial.error)), len(trial.names))
+    frame = int(trial.rms.argmax())
+    rms, furthest = 1e3 * trial.rms[frame], 1e3 * trial.worst[k]
+    time = trial.gait.time
+    return (
+        f"markers ({trial.marker_set}): RMS {1e3 * trial.total_rms:.1f} mm, worst frame {rms:.1f} mm at "
+        f"{time[frame]:.2f} s, furthest marker {trial.names[marker]} {furthest:.1f} mm at {time[k]:.2f} s; "
+        f"body scaled to {trial.body.stature:.2f} m"
+    )
+
+
+def facts(args: argparse.Namespace) -> dict[str, Any] | None:
+    """How well the markers are met, frame by frame and marker by marker; None where GAIT is no trial."""
+    trial = found(args)
+    if trial is None:
+        return None
+    return {
+        "set": trial.marker_set,
+        "rms_mm": 1e3 * trial.total_rms,
+        "filled_coordinates": trial.filled,
+        "frame_rms_mm": (1e3 * trial.rms).tolist(),
+        "frame_worst_mm": (1e3 * trial.worst).tolist(),
+        "marker_rms_mm": {name: 1e3 * error for name, error in trial.by_marker().items()},
+        "stature_m": trial.body.stature,
+    }
 
 
 @lru_cache(maxsize=2)
