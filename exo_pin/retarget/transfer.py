@@ -26,6 +26,8 @@ from exo_pin.robot import Robot, load_robot, load_urdf
 
 Array = npt.NDArray[np.float64]
 
+Walker = str | Path | Target | Robot | Machine
+
 WHOLE = 6
 """So many joints put a foot anywhere in any attitude; fewer put it there and turn it as they can."""
 
@@ -45,15 +47,13 @@ ARM = 0.1
 """The attitude is held by points so far from the ankle [m]."""
 
 
-def retarget(
-    gait: Gait, robot: str | Path | Target | Robot = "talos", body: Body | None = None
-) -> Retargeted:
+def retarget(gait: Gait, robot: Walker = "talos", body: Body | None = None) -> Retargeted:
     """Bring a walk to another robot.
 
     Args:
         gait: The walk.
-        robot: One of `TARGETS` by name, the path of a URDF or of a TOML record, a record, or a robot from
-            `load_urdf`.
+        robot: One of `TARGETS` by name, the path of a URDF or of a TOML record, a record, a robot from
+            `load_urdf`, or a machine that is ready.
         body: Whose walk it is; `Body.from_stature()` if left out.
 
     Raises:
@@ -85,7 +85,9 @@ def joint_by_joint(gait: Gait, machine: Machine, body: Body | None = None) -> Ar
     return _copied(gait, machine, _limbs(gait, load_robot(body), _lean(gait))[..., :3, :3])
 
 
-def _machine(robot: str | Path | Target | Robot) -> Machine:
+def _machine(robot: Walker) -> Machine:
+    if isinstance(robot, Machine):
+        return robot
     if not isinstance(robot, Robot):
         return load(robot)
     if robot.base != "fixed" or (robot.placement != np.eye(4)).any():
