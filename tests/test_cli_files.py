@@ -217,7 +217,7 @@ def test_a_model_tells_how_a_motion_is_meant(capsys, tmp_path, shared):
 
 def test_a_second_walk_may_be_a_marker_trial(shared):
     trial = shared / "opensim_subject01_walk/subject01_walk1.trc"
-    assert "markers (opensim-gait2354)" in options.load(str(trial), Body()).source
+    assert "markers (opensim-gait2354)" in options.load(str(trial), Body.from_stature()).source
 
 
 def test_what_is_no_gait_is_refused_in_one_line(capsys, tmp_path, shared):
