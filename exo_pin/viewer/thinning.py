@@ -44,7 +44,10 @@ def shaded(vertices: Array, faces: Faces) -> Solid:
     """A solid with normals: at each corner the mean of the faces around that turn less than a crease."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     area = np.cross(b - a, c - a)
-    unit = area / np.maximum(np.linalg.norm(area, axis=1, keepdims=True), 1e-30)
+    size = np.linalg.norm(area, axis=1, keepdims=True)
+    solid = size[:, 0] > 0  # what has no area has no normal
+    faces, area = faces[solid], area[solid]
+    unit = area / size[solid]
     corner = np.argsort(faces.ravel(), kind="stable")  # corners of one vertex stand together
     count = np.bincount(faces.ravel(), minlength=len(vertices))
     group = np.repeat(count, count)  # how many share the corner's vertex
