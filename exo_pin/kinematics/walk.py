@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
-from exo_pin.formats import Plate
 from exo_pin.gait import Event, Gait, plates
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
@@ -18,6 +18,9 @@ from exo_pin.gait.strides import strides, unrolled
 from exo_pin.kinematics.contact import events
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
+
+if TYPE_CHECKING:  # the formats are many files, and only a name is needed
+    from exo_pin.formats import Plate
 
 Array = npt.NDArray[np.float64]
 
