@@ -128,10 +128,13 @@ def test_the_keyboard_moves_a_foot_by_a_centimetre_and_escape_lets_go(still):
 def test_playing_resumes_the_walk(still):
     release(still, *pull(still, (30, -30)))
     assert still.evaluate("exo.byHand") is True
+    aside = "document.getElementById('plots').classList.contains('aside')"
+    assert still.evaluate(aside) is True  # the curves are not what is shown
     still.evaluate("exo.toggle()")
     still.wait("!exo.byHand")
     still.evaluate("exo.seek(0.3), exo.apply()")
     assert still.evaluate("exo.marks.com.visible") is True
+    assert still.evaluate(aside) is False
     assert still.evaluate("document.getElementById('reach').hidden") is True
 
 
