@@ -49,6 +49,15 @@ def path(tmp_path):
     return tmp_path / "walk.mot"
 
 
+def test_units_may_be_told_where_the_header_does_not_and_must_not_contradict_it(path):
+    path.write_text(storage(degrees(), header=("name walk.mot", "datacolumns 13", "datarows 5")))
+    told = load_gait(path, units="deg")
+    path.write_text(storage(degrees()))
+    np.testing.assert_array_equal(told.q, load_gait(path, units="deg").q)
+    refused(path, storage(degrees()), "given as rad, but the header has inDegrees=yes", units="rad")
+    refused(path, storage(degrees(), header=("x",)), "or that you give the units", units="grad")
+
+
 def test_each_coordinate_becomes_its_joint(path):
     path.write_text(storage(degrees()))
     gait = load_gait(path)

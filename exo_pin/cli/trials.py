@@ -32,7 +32,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="a table's column is this joint, or `time`; --map=-COLUMN=JOINT turns the sign, a number as "
         "COLUMN holds the joint there; of a marker trial: MARKER=NAME, a marker's name in its set",
     )
-    group.add_argument("--units", choices=("deg", "rad"), help="of a mapped table's angles")
+    group.add_argument("--units", choices=("deg", "rad"), help="of angles, where the file does not tell")
     group.add_argument(
         "--model",
         metavar="OSIM",

@@ -15,7 +15,7 @@ from exo_pin.formats.convention import Convention, by_habit, by_model, habit_of,
 from exo_pin.formats.notes import Notes, read, to_gait, to_lines
 from exo_pin.formats.pelvis import from_opensim, to_opensim
 from exo_pin.formats.presets import OPENSIM, PRESETS, Preset, inferred, preset
-from exo_pin.formats.reading import Reading
+from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.storage import Storage, read_storage, write_storage
 from exo_pin.formats.table import Array, Table
 from exo_pin.gait import Gait
@@ -63,12 +63,12 @@ def read_gait(path: Path, reading: Reading) -> Gait:
             or a knee whose sign is not clear.
         UnknownNameError: There is no such preset.
     """
-    reading.refuse(path, "mapping", "units", why="its names and its header tell")
+    reading.refuse(path, "mapping", why="its names tell")
     chosen = None if reading.preset is None else preset(reading.preset, OPENSIM)
     storage = read_storage(path)
     means = _means(reading)
     table = _coordinates(storage, means)
-    time, degrees = table.times(TIME), _in_degrees(storage)
+    time, degrees = table.times(TIME), _in_degrees(storage, reading.units)
     values, held = _values(table, means, degrees)
     chosen, how = (chosen, "as told") if chosen else _sign(storage, values, means)
     base = None
@@ -169,13 +169,17 @@ def _plain(name: str) -> str:
     return parts[-2] if len(parts) > 1 and parts[-1] == "value" else name
 
 
-def _in_degrees(storage: Storage) -> bool:
-    said = storage.keys.get("indegrees")
+def _in_degrees(storage: Storage, told: str | None = None) -> bool:
+    """Whether angles are in degrees, by the header, or as told where it does not say."""
+    path, said = storage.table.path, storage.keys.get("indegrees")
+    if said is None and told in UNITS:
+        return told == "deg"
     if said is None or said.lower() not in ("yes", "no"):
         found = "no inDegrees" if said is None else f"inDegrees={said[:20]!r}"
-        raise FormatError(
-            storage.table.path, f"{found} in the header; expected inDegrees=yes or inDegrees=no"
-        )
+        why = f"{found} in the header; expected inDegrees=yes or inDegrees=no, or that you give the units"
+        raise FormatError(path, why)
+    if told and (told == "deg") != (said.lower() == "yes"):
+        raise FormatError(path, f"units are given as {told}, but the header has inDegrees={said}")
     return said.lower() == "yes"
 
 

@@ -17,8 +17,8 @@ LARGEST = 32 * 2**20
 DEEPEST = 100
 """Elements within elements; a model has a dozen."""
 
-MOST = 1_000_000
-"""Elements: bounds memory."""
+MOST = 200_000
+"""Elements: bounds memory and time; a full model has some 20 000."""
 
 
 def load_xml(path: Path) -> Element:
