@@ -364,6 +364,14 @@ def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
         np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
 
 
+def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):
+    assert "one gait cycle" in skeleton.poses_chart(robot, recording)[0].title
+    short = replace(
+        recording, events=[e for e in recording.events if e.time < 0.4 * recording.duration / 2.5]
+    )
+    assert "without a whole cycle" in skeleton.poses_chart(robot, short)[0].title
+
+
 def test_the_loops_error_falls_to_the_tolerance(robot, gait):
     errors = loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
     assert errors[-1] <= 1e-9 < errors[-2]

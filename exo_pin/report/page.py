@@ -49,8 +49,14 @@ def _words(block: Words) -> str:
 
 def _table(block: Table) -> str:
     head = "".join(f'<th scope="col">{escape(name)}</th>' for name in block.columns)
+    named = [
+        f' data-name="{escape(name)}"' if block.prose and k else "" for k, name in enumerate(block.columns)
+    ]
     rows = "\n".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in block.rows
+        "<tr>"
+        + "".join(f"<td{name}>{escape(cell)}</td>" for name, cell in zip(named, row, strict=True))
+        + "</tr>"
+        for row in block.rows
     )
     caption = f"<caption>{escape(block.caption)}</caption>" if block.caption else ""
     kind = ' class="prose"' if block.prose else ""

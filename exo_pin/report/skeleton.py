@@ -10,6 +10,7 @@ import numpy.typing as npt
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
+from exo_pin.gait.strides import strides
 from exo_pin.kinematics import jacobian, poses, spatiotemporal
 from exo_pin.report import svg
 from exo_pin.report.blocks import Drawing
@@ -74,8 +75,8 @@ def model_drawing(robot: Robot) -> Drawing:
 
 
 def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
-    """Ten poses of the first cycle from the side, axes in cm, and how they were placed."""
-    rows = _ten(gait)
+    """Ten poses of the first cycle (or of all) from the side, axes in cm, and how they were placed."""
+    rows, what = _ten(gait)
     chains = {side: chain(robot, gait, side)[rows] for side in SIDES}
     lowest = np.min([chain[:, 3:, 2].min(axis=1) for chain in chains.values()], axis=0)
     advance, how = _advance(robot, gait, rows)
@@ -88,7 +89,7 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     everything = np.concatenate([np.stack([np.asarray(c.x), np.asarray(c.y)], axis=1) for c in curves])
     (low, _), (high, top) = everything.min(axis=0), everything.max(axis=0)
     chart = Chart(
-        title="Ten poses of one gait cycle, seen from the left [cm]",
+        title=f"Ten poses of {what}, seen from the left [cm]",
         x_label="forward [cm]",
         curves=tuple(curves),
         levels=(Level(0.0, svg.INK),),
@@ -101,16 +102,16 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     return Drawing("fig5_poses", chart.title, draw(chart)), note
 
 
-def _ten(gait: Gait) -> npt.NDArray[np.int64]:
-    """Rows at 0, 10 .. 90 % of the first cycle of a foot, or of the whole walk where there is no cycle."""
-    start, span = float(gait.time[0]), gait.duration
-    for side in SIDES if not gait.periodic else ():
-        strikes = [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", side)]
-        if len(strikes) > 1:
-            start, span = strikes[0], strikes[1] - strikes[0]
-            break
+def _ten(gait: Gait) -> tuple[npt.NDArray[np.int64], str]:
+    """Rows at 0, 10 .. 90 % of the first cycle of a foot, or of all without one; and which it is."""
+    start, span, what = float(gait.time[0]), gait.duration, "a recording without a whole cycle"
+    found = [] if gait.periodic else [each for side in SIDES for each in strides(gait, side) if not each.why]
+    if gait.periodic:
+        what = "one gait cycle"
+    elif found:
+        start, span, what = found[0].start, found[0].duration, "one gait cycle"
     times = start + span * np.arange(_POSES) / _POSES
-    return np.asarray(np.abs(gait.time[:, None] - times).argmin(axis=0))
+    return np.asarray(np.abs(gait.time[:, None] - times).argmin(axis=0)), what
 
 
 def _advance(robot: Robot, gait: Gait, rows: npt.NDArray[np.int64]) -> tuple[Array, str]:
