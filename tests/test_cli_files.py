@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import re
 
 import numpy as np
 import pytest
@@ -153,6 +154,30 @@ def test_edit_blends_symmetrises_and_ramps(capsys, tmp_path):
     code, _, _ = run(capsys, "edit", "free", path, "--symmetric", "--blend", "slow=0.5", "--ramp", 1, 1)
     assert code == 0
     assert np.abs(load_gait(path).dq[[0, -1]]).max() < 0.05
+
+
+def test_edit_makes_a_recordings_mean_cycle_first(capsys, tmp_path, recording):
+    path = tmp_path / "even.csv"
+    code, out, _ = run(capsys, "edit", recording, path, "--cutoff", 12, "--cycle", "--symmetric")
+    assert code == 0
+    gait = load_gait(path)
+    assert gait.periodic
+    assert gait.base is not None
+    assert len(gait.events) == 4
+    assert re.search(r"mean of [23] cycles of the left foot", out)
+    code, _, err = run(capsys, "edit", recording, tmp_path / "no.csv", "--symmetric")
+    assert code == 2
+    assert "--cycle" in err.splitlines()[-1]
+    save_gait(Gait(np.arange(100) / 50, np.full((100, 12), 0.1)), tmp_path / "stand.csv")
+    code, _, err = run(capsys, "edit", tmp_path / "stand.csv", tmp_path / "no.csv", "--cycle")
+    assert code == 2
+    assert "no gait cycles found: the left foot moves 0.000 m" in err.splitlines()[-1]
+    assert not (tmp_path / "no.csv").exists()
+
+
+def test_the_filters_order_and_cut_off_stand_in_the_output(capsys, recording):
+    out = run(capsys, "cycles", recording, "--cutoff", 9)[1]
+    assert "zero-lag Butterworth, order 4 (forward and backward together), cut-off 9 Hz" in out
 
 
 def test_edit_goes_over_from_one_walk_to_another(capsys, tmp_path):

@@ -74,9 +74,27 @@ def test_the_mean_cycle_is_a_gait_again():
     mean = cycles(recording(walk), "left").average()
     assert mean.periodic
     np.testing.assert_allclose(mean.q, walk.q, atol=CURVE)
+    np.testing.assert_allclose(mean.base, walk.base, atol=CURVE)
+    assert sorted((e.kind, e.side, round(e.time, 6)) for e in mean.events) == sorted(
+        (e.kind, e.side, round(e.time, 6)) for e in walk.events
+    )
     one = cycles(walk, "left")
     assert len(one) == 1
     assert np.isnan(one.sd).all()
+
+
+def test_the_mean_pelvis_walks_on_the_spot_wherever_the_walk_went():
+    walk = normative_gait("free")
+    gait = recording(walk)
+    c, s = np.cos(2.0), np.sin(2.0)
+    there = np.eye(4)
+    there[:2, :2] = [[c, -s], [s, c]]
+    base = gait.base.copy()
+    base[:, :2, 3] += 1.2 * gait.time[:, None] * [1.0, 0.0] + [5.0, -3.0]
+    moved = replace(gait, base=there @ base)
+    np.testing.assert_allclose(cycles(moved, "left").average().base, walk.base, atol=CURVE)
+    still = replace(gait, base=None)
+    assert cycles(still, "left").average().base is None
 
 
 def test_noise_shows_in_the_spread_and_an_odd_cycle_is_named(rng):

@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     if not gait.events:
         gait = dataclasses.replace(gait, events=events(robot, gait))
-    cut = cycles(gait, args.side or _side(gait))
+    cut = cycles(gait, args.side or side(gait))
     found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
     if args.json:
         show.as_json(found)
@@ -61,16 +61,15 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         _write(args.output, cut, gait.source)
     if args.mean:
-        save_gait(cut.average(f"{gait.source}; mean of {len(cut)} {cut.side} cycles"), args.mean)
+        save_gait(cut.average(f"{gait.source}; mean of {count(cut)}"), args.mean)
     return 0
 
 
-def _side(gait: Gait) -> str:
+def side(gait: Gait) -> str:
     """Left, or right where only the right foot has cycles."""
     from exo_pin.gait import strides
-    from exo_pin.gait.strides import unrolled
 
-    whole = [any(not stride.why for stride in strides(unrolled(gait), side)) for side in SIDES]
+    whole = [any(not stride.why for stride in strides(gait, side)) for side in SIDES]
     return SIDES[whole == [False, True]]
 
 
@@ -78,7 +77,6 @@ def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
     """Cycles by side, spans that are none and why, the spatiotemporal numbers; or why there are none."""
     from exo_pin.gait import against_normal, normal, strides
     from exo_pin.gait.norms import CITATIONS
-    from exo_pin.gait.strides import unrolled
     from exo_pin.kinematics import spatiotemporal
 
     none: dict[str, Any] = {"cycles": {}, "left_out": [], "spatiotemporal": {}, "sources": {}}
@@ -86,7 +84,7 @@ def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
         numbers = spatiotemporal(robot, gait)
     except GaitError as error:
         return none | {"no_cycles": str(error)}
-    spans = [span for side in SIDES for span in strides(unrolled(gait), side)]
+    spans = [span for side in SIDES for span in strides(gait, side)]
     legs = robot.body.leg_length if robot.body else float("nan")
     usual, verdicts = normal(numbers, leg_length=legs), against_normal(numbers, leg_length=legs)
     return {
@@ -116,12 +114,18 @@ def print_left_out(found: dict[str, Any]) -> None:
         print(f"left out: {span['side']} {span['start_s']:.2f} .. {span['end_s']:.2f} s: {span['why']}")
 
 
+def count(cut: Cycles) -> str:
+    """How many cycles of which foot."""
+    return f"{len(cut)} cycle{'s' * (len(cut) != 1)} of the {cut.side} foot"
+
+
 def _rounded(value: float, unit: str) -> str:
     """Lengths and times to the millimetre and millisecond, the rest to a tenth."""
     return show.fixed(value, 3 if unit in ("m", "s", "m/s") else 1)
 
 
 def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
+    print(f"source: {found['source'] or 'not stated'}")
     sources = list(found["sources"])
     rows = [
         [
@@ -135,7 +139,7 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
         ]
         for name, x in found["spatiotemporal"].items()
     ]
-    title = f"{args.gait}: {len(cut)} cycle{'s' * (len(cut) != 1)} of the {cut.side} foot"
+    title = f"{args.gait}: {count(cut)}"
     show.table(title, ["number", "mean", "sd", "n", "usual", "this", "source"], rows)
     for k, citation in enumerate(found["sources"].values()):
         print(f"{k + 1}  {citation}")
@@ -156,6 +160,6 @@ def _write(path: str, cut: Cycles, source: str) -> None:
     pairs = np.stack([cut.mean, cut.sd], axis=2).reshape(len(cut.percent), -1)
     rows = np.column_stack([cut.percent, np.degrees(pairs)]).tolist()
     lines = [",".join("" if x != x else repr(x) for x in row) for row in rows]
-    head = [f"# {len(cut)} cycles of the {cut.side} foot, mean and standard deviation", f"# source: {source}"]
+    head = [f"# {count(cut)}, mean and standard deviation", f"# source: {source}"]
     write_text(path, "\n".join([*head, ",".join(names), *lines, ""]))
     print(f"{path}: {len(cut.percent)} points of {len(cut)} cycles")

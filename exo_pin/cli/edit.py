@@ -21,13 +21,14 @@ _EXAMPLES = """examples:
   exo-pin edit free soft.csv --amplitude knee_flexion=0.8 --clearance 1.2
   exo-pin edit free start.yaml --ramp 3 3                   a slow start and stop, for a controller
   exo-pin edit walk.mot smooth.csv --cutoff 6 --mirror
+  exo-pin edit walk.mot even.csv --cutoff 6 --cycle --symmetric
   exo-pin edit free between.csv --blend slow=0.3
   exo-pin edit slow faster.csv --transition free=3          from one to the other within 3 cycles
   exo-pin edit slow faster.csv --transition free=4s --ramp 2 2
 
-Adjustments are made in the order of these options: cutoff, symmetric, mirror, blend, amplitude, stride and
-clearance, transition, duration or slower, ramp. Limits, speeds and accelerations are checked after each.
-exit code 0: done; 1: written, but a joint leaves its limits."""
+Adjustments are made in the order of these options: cutoff, cycle, symmetric, mirror, blend, amplitude,
+stride and clearance, transition, duration or slower, ramp. Limits, speeds and accelerations are checked
+after each. exit code 0: done; 1: written, but a joint leaves its limits."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,6 +38,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("output", metavar="OUT", help="the new file; its ending is the format")
     group = parser.add_argument_group("adjustments")
     group.add_argument("--cutoff", type=float, metavar="HZ", help="zero-lag Butterworth of order 4")
+    group.add_argument(
+        "--cycle", action="store_true", help="a recording's mean cycle first, as a gait that repeats"
+    )
     group.add_argument("--symmetric", action="store_true", help="both sides alike (a gait that repeats)")
     group.add_argument("--mirror", action="store_true", help="left and right change places")
     group.add_argument("--blend", metavar="GAIT=SHARE", help="mix with another gait that repeats")
@@ -123,6 +127,18 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
     return gait if args.cutoff is None else edit.filtered(gait, cutoff=args.cutoff)
 
 
+def _cycle(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+    from exo_pin.cli import cycles
+    from exo_pin.gait import cycles as cut
+    from exo_pin.kinematics import events
+
+    if not args.cycle:
+        return gait
+    known = gait if gait.events else dataclasses.replace(gait, events=events(robot, gait))
+    found = cut(known, cycles.side(known))
+    return found.average(f"{gait.source}; mean of {cycles.count(found)}")
+
+
 def _symmetric(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
@@ -189,6 +205,7 @@ def _ramp(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gai
 
 _STEPS: dict[str, Step] = {
     "filtered": _filter,
+    "mean cycle": _cycle,
     "symmetric": _symmetric,
     "mirrored": _mirror,
     "blended": _blend,

@@ -129,7 +129,9 @@ class _Pair(NamedTuple):
     def of(cls, first: Gait, second: Gait) -> _Pair:
         """Both walks, looked at for their heel strikes."""
         if not (first.periodic and second.periodic):
-            raise GaitError("only periodic gaits can be blended: equal phase must mean something")
+            raise GaitError(
+                "only periodic gaits can be blended: a recording's mean cycle is one (edit --cycle)"
+            )
         walks = (first, second)
         left, right = ([_strike(walk, side) for walk in walks] for side in ("left", "right"))
         starts = (0.0, 0.0) if left[0] is None or left[1] is None else (left[0], left[1])

@@ -68,7 +68,7 @@ def symmetrised(gait: Gait) -> Gait:
         GaitError: The gait is not periodic (cut it into cycles and take their mean first).
     """
     if not gait.periodic:
-        raise GaitError("only a periodic gait can be symmetrised: its cycles' mean is one (exo-pin cycles)")
+        raise GaitError("only a periodic gait can be symmetrised: its cycles' mean is one (edit --cycle)")
     even = gait if len(gait) % 2 == 0 else gait.resampled(len(gait) + 1)
     half = len(even) // 2
     other = even.mirrored()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +13,8 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
 from exo_pin.gait.checks import read_only
+from exo_pin.gait.event import EVENT_KINDS, Event
+from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.walk import Gait
 
@@ -37,6 +40,9 @@ class Cycles:
         start: `(k,)` heel strikes that begin the cycles [s].
         duration: `(k,)` stride times [s].
         skipped: Strides that were left out, with the reasons: pauses, turns, missed events.
+        base: `(k, points, 4, 4)` the pelvis of each cycle, turned to walk along x, its even travel taken
+            off, or None if it does not move [m].
+        contacts: Kind and side of an event -> its phases (0 to 1) in the cycles that have one such event.
     """
 
     side: str
@@ -44,6 +50,8 @@ class Cycles:
     start: Array
     duration: Array
     skipped: tuple[Stride, ...] = ()
+    base: Array | None = None
+    contacts: Mapping[tuple[str, str], Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Number of cycles k."""
@@ -76,15 +84,19 @@ class Cycles:
         return tuple(int(k) for k in np.flatnonzero(odd))
 
     def average(self, source: str = "") -> Gait:
-        """The mean cycle as a periodic gait of `points - 1` samples; ends that do not meet are closed.
+        """The mean cycle as a periodic gait of `points - 1` samples, with the mean pelvis and mean events.
 
-        The gap between 100 % and 0 % is spread evenly over the cycle.
+        Ends that do not meet are closed: the gap between 100 % and 0 % is spread evenly over the cycle.
         """
-        gap = self.mean[-1] - self.mean[0]
-        q = self.mean[:-1] - gap * (np.arange(len(self.mean) - 1) / (len(self.mean) - 1))[:, None]
+        q = _closed(self.mean)
+        base = None if self.base is None else nearest_pose(_closed(self.base.mean(axis=0)))
         T = float(self.duration.mean())
-        time = T * np.arange(len(q)) / len(q)
-        return Gait(time, q, periodic=True, source=source or f"mean of {len(self)} {self.side} cycles")
+        source = source or f"mean of {len(self)} {self.side} cycle{'s' * (len(self) != 1)}"
+        events = [
+            Event(T * float(phases.mean()), kind, side, f"mean of {len(phases)}")
+            for (kind, side), phases in self.contacts.items()
+        ]
+        return Gait(T * np.arange(len(q)) / len(q), q, base=base, events=events, periodic=True, source=source)
 
 
 def cycles(gait: Gait, side: str = "left", *, points: int = POINTS) -> Cycles:
@@ -98,20 +110,60 @@ def cycles(gait: Gait, side: str = "left", *, points: int = POINTS) -> Cycles:
     """
     if side not in SIDES:
         raise UnknownNameError("side", side, SIDES)
-    walk = unrolled(gait)
-    spans = strides(walk, side)
-    if gait.periodic:  # as many cycles as it has strikes, each followed around the end
-        spans = tuple(span for span in spans if span.start < gait.duration * (1 - 1e-9))
+    walk, spans = unrolled(gait), strides(gait, side)
     kept = [span for span in spans if not span.why]
     if not kept:
         raise GaitError(f"no gait cycles found: {_why_none(walk, spans, side)}")
-    q = [
-        curves.resampled(walk.time, walk.q, np.linspace(span.start, span.end, points), periodic=False)
-        for span in kept
-    ]
+    moments = [np.linspace(span.start, span.end, points) for span in kept]
+    q = [curves.resampled(walk.time, walk.q, at, periodic=False) for at in moments]
+    base = None
+    if walk.base is not None:
+        flat = walk.base.reshape(-1, 16)
+        base = np.array(
+            [_on_the_spot(curves.resampled(walk.time, flat, at, periodic=False)) for at in moments]
+        )
     start, duration = (np.array([getattr(span, name) for span in kept]) for name in ("start", "duration"))
     skipped = tuple(span for span in spans if span.why)
-    return Cycles(side, read_only(np.array(q)), read_only(start), read_only(duration), skipped)
+    return Cycles(
+        side,
+        read_only(np.array(q)),
+        read_only(start),
+        read_only(duration),
+        skipped,
+        None if base is None else read_only(base),
+        _contacts(walk, kept),
+    )
+
+
+def _on_the_spot(flat: Array) -> Array:
+    """Poses `(n, 4, 4)` of one cycle from entries `(n, 16)`: heading along x, without the even travel."""
+    base = nearest_pose(flat.reshape(-1, 4, 4))
+    ahead = base[:, :2, 0].sum(axis=0)
+    c, s = ahead / max(float(np.linalg.norm(ahead)), 1e-9)
+    base[:, :2] = np.array([[c, s], [-s, c]]) @ base[:, :2]
+    share = np.linspace(0, 1, len(base))[:, None]
+    base[:, :2, 3] -= share * (base[-1, :2, 3] - base[0, :2, 3])
+    base[:, :2, 3] -= base[:-1, :2, 3].mean(axis=0)
+    return base
+
+
+def _contacts(walk: Gait, spans: Sequence[Stride]) -> dict[tuple[str, str], Array]:
+    """Phases of the events of each kind and side, from the cycles that have one of them."""
+    found: dict[tuple[str, str], Array] = {}
+    for side in SIDES:
+        for kind in EVENT_KINDS:
+            times = np.array([e.time for e in walk.events if (e.kind, e.side) == (kind, side)])
+            inside = [(span, times[(times >= span.start) & (times < span.end)]) for span in spans]
+            phases = [(t[0] - span.start) / span.duration for span, t in inside if len(t) == 1]
+            if phases:
+                found[kind, side] = np.array(phases)
+    return found
+
+
+def _closed(y: Array) -> Array:
+    """The samples `(points, ...)` of a cycle but the last one, its gap to the first spread over them all."""
+    share = (np.arange(len(y) - 1) / (len(y) - 1)).reshape(-1, *(1,) * (y.ndim - 1))
+    return np.asarray(y[:-1] - share * (y[-1] - y[0]))
 
 
 def _why_none(walk: Gait, spans: tuple[Stride, ...], side: str) -> str:

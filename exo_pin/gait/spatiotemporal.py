@@ -13,7 +13,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.checks import check_time, frozen
 from exo_pin.gait.event import Event
-from exo_pin.gait.strides import Stride
+from exo_pin.gait.strides import ROUNDING, Stride
 
 Array = NDArray[np.float64]
 
@@ -22,9 +22,6 @@ FLAT = (0.2, 0.5)
 
 STILL = 0.05
 """A ground that seems to move slower than this [m/s] stands still."""
-
-ROUNDING = 1e-9
-"""Of times, as a part of the walk's duration."""
 
 Measure = tuple[str, ArrayLike]
 """Unit and the single values."""

@@ -13,6 +13,9 @@ from exo_pin.gait.walk import Gait
 
 Array = NDArray[np.float64]
 
+ROUNDING = 1e-9
+"""Of times, as a part of the walk's duration."""
+
 LONGEST = 3.0
 """A stride longer than this many median strides holds a pause or a missed event."""
 
@@ -56,9 +59,12 @@ def strides(gait: Gait, side: str) -> tuple[Stride, ...]:
     the pelvis turns by more than 30 degrees, or one without the foot's toe-off where most have it.
 
     Args:
-        gait: A recording with events (a periodic gait is followed around its end by `unrolled`).
+        gait: A walk with events; one that repeats has as many strides as strikes, followed around its end.
         side: Whose heel strikes.
     """
+    if gait.periodic:
+        first = gait.duration * (1 - ROUNDING)
+        return tuple(span for span in strides(unrolled(gait), side) if span.start < first)
     mine = [event for event in gait.events if event.side == side]
     strikes = [event.time for event in mine if event.kind == "heel_strike"]
     spans = [Stride(side, a, b) for a, b in pairwise(strikes)]

@@ -13,7 +13,7 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.bouts import walking
 from exo_pin.gait.steps import Feet
-from exo_pin.gait.strides import strides, turned, unrolled
+from exo_pin.gait.strides import strides, turned
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
@@ -105,6 +105,6 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
 
 def _check_strides(gait: Gait) -> None:
     """Raises `GaitError` if none of the strides of a walk counts as one."""
-    spans = [span for side in SIDES for span in strides(unrolled(gait), side)]
+    spans = [span for side in SIDES for span in strides(gait, side)]
     if spans and all(span.why for span in spans):
         raise GaitError(f"no gait cycles found: {spans[0].why}")
