@@ -188,6 +188,8 @@ def test_a_joint_s_range_is_what_device_and_body_both_allow():
         {"actuators": {"knee_flexion": Actuator(-1, 1)}},
         {"actuators": {"knee_flexion": Actuator(1, float("nan"))}},
         {"ranges": {"knee_flexion": (1.0, 0.0)}},
+        {"treadmill": (1.0, 0.5)},
+        {"statures": (1.0, float("nan"))},
     ],
     ids=str,
 )
@@ -204,6 +206,8 @@ title = "Hip and knee, one ankle"
 joints = ["hip_flexion", "knee_flexion", "left_ankle_dorsiflexion"]
 passive = ["right_ankle_dorsiflexion"]
 pelvis = ["pelvis_up"]
+treadmill_km_h = [0.36, 3.6]
+statures_m = [1.5, 1.9]
 source = "our workshop"
 [actuators.knee_flexion]
 effort_nm = 35
@@ -222,6 +226,8 @@ def test_a_device_of_one_s_own_is_a_file(tmp_path):
     knee = robot.joints.index("left_knee_flexion")
     assert np.degrees([robot.lower[knee], robot.upper[knee]]) == pytest.approx([5, 100])
     assert robot.effort[knee] == 35
+    assert robot.device.treadmill == pytest.approx((0.1, 1.0))
+    assert robot.device.statures == (1.5, 1.9)
     assert (robot.lower[0], robot.upper[0]) == (-0.02, 0.05)
 
 
@@ -233,6 +239,8 @@ def test_a_device_of_one_s_own_is_a_file(tmp_path):
         ("effort_nm", "torque"),
         ("35", '"35"'),
         ("[5, 100]", "[5]"),
+        ("[0.36, 3.6]", "[3.6]"),
+        ("[1.5, 1.9]", "[1.9, 1.5]"),
         ("[ranges_m]", "[ranges_deg2]"),
         ('["pelvis_up"]', "true"),
         ("[ranges_deg]\nknee_flexion", "[ranges_deg]\npelvis_up"),
@@ -275,3 +283,11 @@ def test_the_urdf_command_writes_a_device(capsys):
     tree = ET.fromstring(capsys.readouterr().out)
     moving = {j.get("name") for j in tree.findall("joint") if j.get("type") != "fixed"}
     assert moving == {*DEVICES["lokomat"].joints, "pelvis_up"}
+
+
+def test_what_the_device_leaves_free_is_let_go():
+    for name in ("lopes7", "lopes8"):
+        free = DEVICES[name].released()
+        assert {"left_ankle_dorsiflexion", "right_ankle_inversion"} <= set(free.joints)
+        assert free.motors == DEVICES[name].motors
+        assert any("ankle is held" in remark for remark in DEVICES[name].remarks)

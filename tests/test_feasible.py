@@ -169,7 +169,7 @@ def test_slides_are_asked_what_the_pelvis_does():
 
 
 def test_what_the_device_holds_of_the_pelvis_is_told_and_does_not_count():
-    verdict = feasible(_swaying(0.04), "lokomat")
+    verdict = feasible(_swaying(0.04).slowed(2.0), "lokomat")  # its belt is slow
     assert verdict.ok
     assert verdict.dropped["pelvis_left"] == pytest.approx(0.04, abs=1e-3)
     assert "pelvis_up" not in verdict.dropped
@@ -213,3 +213,32 @@ def test_the_command_says_where_and_under_what_conditions(capsys, tmp_path):
     path.write_text("time_s,left_knee_flexion_torque_nm\n0,500\n2,500\n")
     assert main(["feasible", "free", "--torques", str(path)]) == 1
     assert "left_knee_flexion: too much torque in 100 frames (0-99" in capsys.readouterr().out
+
+
+def test_a_belt_sets_the_cadence_and_the_amplitude():
+    verdict = feasible(GAIT, "lokomat")
+    belt = verdict.fits[0]
+    assert not verdict.ok
+    assert [name for name, _, _ in verdict.failures] == ["treadmill"]
+    assert verdict.cadence == pytest.approx(belt.high / belt.asked)
+    for part in (GAIT.slowed(1 / verdict.cadence), scaled(GAIT, verdict.amplitude)):
+        now = feasible(part, "lokomat")
+        assert now.ok
+        assert now.fits[0].asked == pytest.approx(belt.high, rel=0.01)
+    assert feasible(GAIT.slowed(20.0), "lokomat").failures[0][0] == "treadmill"  # too slow for it
+
+
+def test_a_belt_whose_speed_nobody_knows_does_not_count():
+    standing = Gait(np.arange(5) / 10, np.zeros((5, 12)))
+    verdict = feasible(standing, "lokomat")
+    assert np.isnan(verdict.fits[0].asked)
+    assert verdict.ok
+    json.dumps(verdict.facts(), allow_nan=False)
+
+
+@pytest.mark.parametrize(("stature", "good"), [(1.40, False), (1.50, True), (1.95, True), (2.0, False)])
+def test_a_device_fits_the_people_it_is_made_for(stature, good):
+    verdict = feasible(GAIT, "h2", Body.from_stature(stature))
+    assert verdict.ok is good
+    assert verdict.cadence_decides is good
+    assert feasible(GAIT, "exo12", Body.from_stature(stature)).ok

@@ -46,6 +46,8 @@ def facts(device: Device) -> dict[str, Any]:
         "added": device.added,
         "pelvis": device.pelvis,
         "actuators": {name: actuator._asdict() for name, actuator in device.actuators.items()},
+        "treadmill_m_s": device.treadmill,
+        "statures_m": device.statures,
         "ranges": {name: [lower, upper] for name, (lower, upper) in device.ranges.items()},
         "source": device.source,
         "remarks": device.remarks,
@@ -82,12 +84,18 @@ def _print_one(device: Device) -> None:
         "locked": movements(tuple(j for j in device.locked if j not in device.passive)),
         "pelvis": _pelvis(device),
         "toes": "driven" if device.toes else "-",
+        "treadmill": _span(device.treadmill, 3.6, "km/h"),
+        "statures": _span(device.statures, 1.0, "m"),
     }
     show.table(f"{device.name}: {device.title or device.name}", ["", ""], [list(x) for x in lines.items()])
     rows = [_row(device, joint) for joint in dict.fromkeys(map(movement_of, (*device.joints, *device.added)))]
     show.table("Actuators", ["movement", "effort", "speed", "range"], rows)
     for line in (device.source, *device.remarks):
         print(line)
+
+
+def _span(pair: tuple[float, float] | None, scale: float, unit: str) -> str:
+    return "-" if pair is None else f"{scale * pair[0]:g} .. {scale * pair[1]:g} {unit}"
 
 
 def _row(device: Device, movement: str) -> list[str]:

@@ -66,6 +66,9 @@ def _print(verdict: Feasibility, name: str) -> None:
     pair = " and ".join(facts["clearance_between"])
     spare = ", ".join(f"{side} {show.fixed(x)} mm" for side, x in facts["reach_to_spare_mm"].items())
     print(f"nearest parts: {show.fixed(facts['clearance_mm'])} mm between {pair}")
+    for fit in facts["fits"]:
+        asked = "not known" if fit["asked"] is None else f"{fit['asked']:.2f} {fit['unit']}"
+        print(f"{fit['what']}: {asked}, {fit['low']:.2f} to {fit['high']:.2f} {fit['unit']} possible")
     print(f"reach to spare between hip and ankle: {spare}")
     told = [
         f"{name} {show.fixed(x)} {unit}"
@@ -99,6 +102,8 @@ def _print_demands(title: str, unit: str, demands: list[JointDemand]) -> None:
 
 
 def _failure(failure: dict[str, Any]) -> str:
+    if failure["what"] in ("treadmill", "person"):
+        return f"{failure['what']}: {failure['how']}"
     frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure["frames"])
     where = f"; {', '.join(failure['phases'])}" if failure["phases"] else ""
     return f"{failure['what']}: {failure['how']} in {failure['samples']} frames ({frames}{where})"
@@ -116,7 +121,7 @@ def _cadence(verdict: Feasibility) -> str:
 
 def _amplitude(verdict: Feasibility) -> str:
     if not verdict.amplitude_decides:
-        return "torques at another amplitude are not known"
+        return "at no amplitude that is known"
     if not verdict.amplitude:
         return "at no amplitude of the joints"
     return f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"

@@ -43,6 +43,8 @@ class Device:
         actuators: By movement (of `MOVEMENTS`, `SLIDES` or `"toe_dorsiflexion"`), the same left and right.
         ranges: By movement, the device's own range (lower, upper) [rad] (slides: [m]); a joint's range is
             what the device and the body both allow.
+        treadmill: Slowest and fastest speed of its belt [m/s]; None: it has none, or no source tells.
+        statures: Shortest and tallest person whom it fits [m]; None: no source tells.
         source: Where the joints and every number come from.
         remarks: Where sources differ, and what the record leaves out.
 
@@ -60,6 +62,8 @@ class Device:
     toes: bool = False
     actuators: Mapping[str, Actuator] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    treadmill: tuple[float, float] | None = None
+    statures: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -75,6 +79,8 @@ class Device:
         if not self.joints:
             raise DescriptionError(f"device {self.name} drives no joint")
         self._check_pelvis()
+        for what in ("treadmill", "statures"):
+            object.__setattr__(self, what, _span(what, getattr(self, what)))
         complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
         object.__setattr__(self, "actuators", MappingProxyType(complete))
         object.__setattr__(self, "ranges", MappingProxyType(_checked_ranges(self.ranges)))
@@ -197,6 +203,15 @@ def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
     if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf):
         raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
     return actuator
+
+
+def _span(what: str, pair: tuple[float, float] | None) -> tuple[float, float] | None:
+    if pair is None:
+        return None
+    low, high = map(float, pair)
+    if not 0.0 <= low < high <= 10.0:
+        raise DescriptionError(f"{what} is {low:g} .. {high:g}; lower < upper, from 0 to 10, is accepted")
+    return low, high
 
 
 def _checked_ranges(given: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:

@@ -14,6 +14,8 @@ from exo_pin.devices.userfile import load
 from exo_pin.errors import UnknownNameError
 
 _CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."
+_FOOT = both("ankle_dorsiflexion", "ankle_inversion")
+_FREE_FOOT = "The foot is free in LOPES; here the ankle is held at zero unless released."
 _TRUNK_PITCH = "The trunk's pitch is left to the hips: it turns about the same axis as hip flexion."
 
 
@@ -39,6 +41,7 @@ LOKOMAT = Device(
     passive=both("ankle_dorsiflexion"),
     pelvis=("pelvis_up",),
     actuators=_loose("pelvis_up"),
+    treadmill=(0.5 / 3.6, 3.2 / 3.6),
     source="Hip and knee driven by motors with ball screws, ankle passive; pelvis fixed but for the vertical "
     "body-weight support, as PMC9768983, table 3, lists it. " + _CHOSEN,
     remarks=(
@@ -53,23 +56,26 @@ LOPES7 = Device(
     name="lopes7",
     title="LOPES, as the paper counts (7)",
     joints=both("hip_flexion", "hip_adduction", "knee_flexion"),
+    passive=_FOOT,
     pelvis=("pelvis_up",),
     source="Chen, Zhang and Zhu: 7 degrees of freedom, hip flexion, hip adduction and knee of each leg and "
     "the pelvis up and down. " + _CHOSEN,
-    remarks=("Its authors count 8: see lopes8. The foot is free in LOPES; here the ankle is held at zero.",),
+    remarks=("Its authors count 8: see lopes8. " + _FREE_FOOT,),
 )
 
 LOPES8 = Device(
     name="lopes8",
     title="LOPES, as its authors count (8)",
     joints=both("hip_flexion", "hip_adduction", "knee_flexion"),
+    passive=_FOOT,
     pelvis=("pelvis_forward", "pelvis_left", "pelvis_up"),
     actuators=_loose("pelvis_up"),
     source="Veneman et al. 2007, IEEE TNSRE 15(3):379: a freely translatable pelvis, driven forward and "
     "sideways, and two driven joints at the hip and one at the knee of each leg. " + _CHOSEN,
     remarks=(
         "The pelvis moves vertically too, without a motor. The paper counts 7: see lopes7.",
-        "Travel of the pelvis: a design choice, +-0.10 m. The foot is free in LOPES; here the ankle is held.",
+        "Travel of the pelvis: a design choice, +-0.10 m.",
+        _FREE_FOOT,
     ),
 )
 
@@ -80,6 +86,7 @@ H2 = Device(
     passive=both("hip_adduction"),
     pelvis="free",
     ranges={"hip_adduction": (math.radians(-20.0), math.radians(20.0))},
+    statures=(1.45, 1.95),
     source="Bortole et al. 2015, JNER 12:54: six driven joints in the sagittal plane, passive movement of "
     "about 20 degrees at the hip in the frontal plane, 12 kg, users of 1.45 to 1.95 m. " + _CHOSEN,
     remarks=("Worn over ground: the pelvis goes with the person.",),

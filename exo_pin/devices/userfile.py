@@ -23,6 +23,8 @@ _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
     "pelvis": ('"held", "free" or a list of slides', lambda x: isinstance(x, str) or _is_names(x)),
     "toes": ("true or false", lambda x: isinstance(x, bool)),
     "remarks": ("a list of texts", lambda x: _is_names(x)),
+    "treadmill_km_h": ("two numbers [slowest, fastest]", lambda x: _is_pair(x)),
+    "statures_m": ("two numbers [shortest, tallest]", lambda x: _is_pair(x)),
     "actuators": ("tables [actuators.<movement>]", lambda x: isinstance(x, dict)),
     "ranges_deg": ("a table of movement = [lower, upper]", lambda x: isinstance(x, dict)),
     "ranges_m": ("a table of slide = [lower, upper]", lambda x: isinstance(x, dict)),
@@ -63,7 +65,17 @@ def _device(values: dict[str, Any]) -> Device:
         values[name] = _with_sides(values[name])
     for name in {"pelvis", "remarks"} & set(values):
         values[name] = values[name] if isinstance(values[name], str) else tuple(values[name])
+    values["treadmill"] = _scaled(values.pop("treadmill_km_h", None), 1 / 3.6)
+    values["statures"] = _scaled(values.pop("statures_m", None), 1.0)
     return Device(actuators=actuators, ranges=ranges, **values)
+
+
+def _is_pair(value: object) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(type(x) in (int, float) for x in value)
+
+
+def _scaled(pair: list[float] | None, scale: float) -> tuple[float, float] | None:
+    return None if pair is None else (scale * pair[0], scale * pair[1])
 
 
 def _is_names(value: object) -> bool:
@@ -98,7 +110,7 @@ def _pairs(table: dict[str, Any], unit: Callable[[float], float]) -> dict[str, t
     for name, pair in table.items():
         if name.startswith("pelvis_") != (unit is float):
             raise DescriptionError(f"range of {name}: joints belong in ranges_deg, slides in ranges_m")
-        if not (isinstance(pair, list) and len(pair) == 2 and all(type(x) in (int, float) for x in pair)):
+        if not _is_pair(pair):
             raise DescriptionError(f"range of {name} is {pair!r}; two numbers [lower, upper] are accepted")
         pairs[name] = (unit(pair[0]), unit(pair[1]))
     return pairs

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable, Sequence
 
 from exo_pin.feasible.collision import nearest
 from exo_pin.feasible.limits import JointDemand
@@ -21,23 +22,30 @@ def scaled(gait: Gait, factor: float) -> Gait:
     return dataclasses.replace(gait, q=middle + factor * (gait.q - middle))
 
 
-def amplitude(robot: Robot, gait: Gait, asked: list[JointDemand], gap: float) -> float:
-    """The largest factor on the movement about the mean that joints and gap allow, at most `MOST`.
+def amplitude(
+    robot: Robot, gait: Gait, asked: list[JointDemand], gap: float, others: Sequence[Callable[[Gait], bool]]
+) -> float:
+    """The largest factor on the movement about the mean that joints, gap and others allow, at most `MOST`.
 
-    The limits are linear in the factor; of the collisions it is assumed that more movement is no safer.
+    The limits are linear in the factor; of the collisions and the others it is assumed that more movement is
+    no safer.
     """
+
+    def possible(factor: float) -> bool:
+        walk = scaled(gait, factor)
+        return all(other(walk) for other in others) and _apart(robot, walk, gap)
+
     high = min(MOST, *(demand.amplitude for demand in asked))
-    if _apart(robot, gait, high, gap):
+    if possible(high):
         return high
-    if not _apart(robot, gait, 0.0, gap):
+    if not possible(0.0):
         return 0.0
     low = 0.0
     for _ in range(_STEPS):
         middle = (low + high) / 2
-        low, high = (middle, high) if _apart(robot, gait, middle, gap) else (low, middle)
+        low, high = (middle, high) if possible(middle) else (low, middle)
     return low
 
 
-def _apart(robot: Robot, gait: Gait, factor: float, gap: float) -> bool:
-    q = robot.from_gait(scaled(gait, factor))
-    return bool((nearest(robot, q).distance >= gap).all())
+def _apart(robot: Robot, gait: Gait, gap: float) -> bool:
+    return bool((nearest(robot, robot.from_gait(gait)).distance >= gap).all())

@@ -13,6 +13,7 @@ from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import GaitError
 from exo_pin.feasible.collision import Nearest, nearest
+from exo_pin.feasible.fit import Fit, fits, keeps_up
 from exo_pin.feasible.limits import ACCELERATION, ROUNDING, JointDemand, demands
 from exo_pin.feasible.pelvis import dropped, slides
 from exo_pin.feasible.scale import amplitude
@@ -38,6 +39,7 @@ class Feasibility:
         joints: What each joint of the device is asked.
         nearest: Distance between its parts.
         gap: Distance that the parts must keep [m].
+        fits: What the device's record says about its belt's speed and the person's stature.
         reach: By side: least reach to spare between hip and ankle [m]; negative: too far by that much.
         dropped: By locked joint: the largest angle that the walk asks of it [rad]; and what the pelvis does
             and the device does not let it (`pelvis.dropped`) [m, rad]. It does not enter the verdict
@@ -53,6 +55,7 @@ class Feasibility:
     joints: tuple[JointDemand, ...]
     nearest: Nearest
     gap: float
+    fits: tuple[Fit, ...]
     reach: dict[str, float]
     dropped: dict[str, float]
     cadence: float
@@ -70,6 +73,7 @@ class Feasibility:
             all(demand.ok for demand in self.joints)
             and not bool(self.colliding.any())
             and min(self.reach.values()) >= -ROUNDING
+            and all(fit.ok for fit in self.fits)
         )
 
     @property
@@ -79,12 +83,16 @@ class Feasibility:
             any((demand.outside | demand.too_strong).any() for demand in self.joints)
             or self.colliding.any()
             or min(self.reach.values()) < -ROUNDING
+            or any(fit.what == "person" and not fit.ok for fit in self.fits)
         )
 
     @property
     def amplitude_decides(self) -> bool:
-        """Whether the amplitude helps at all: torques at another one are not known."""
-        return not any(demand.too_strong.any() for demand in self.joints)
+        """Whether the amplitude helps: torques at another one are not known, and people keep their size."""
+        return not (
+            any(demand.too_strong.any() for demand in self.joints)
+            or any(fit.what == "person" and not fit.ok for fit in self.fits)
+        )
 
     @property
     def failures(self) -> list[tuple[str, str, Mask]]:
@@ -104,11 +112,10 @@ class Feasibility:
         if self.colliding.any():
             a, b = self.nearest.pairs[int(self.nearest.distance.argmin())]
             found.append((f"{a} and {b}", "too near", self.colliding))
-        return found + [
-            (f"{side} leg", "out of reach", np.ones(len(self.gait), dtype=bool))
-            for side, slack in self.reach.items()
-            if slack < -ROUNDING
-        ]
+        always = np.ones(len(self.gait), dtype=bool)
+        found += [(fit.what, fit.how, always) for fit in self.fits if not fit.ok]
+        short = (side for side, slack in self.reach.items() if slack < -ROUNDING)
+        return found + [(f"{side} leg", "out of reach", always) for side in short]
 
     def phases(self, mask: Mask, name: str) -> list[str]:
         """Phases of the cycle in which marked samples lie: of the foot on the joint's side, else the left."""
@@ -133,6 +140,9 @@ class Feasibility:
             "joints": {d.joint: _demand(d) for d in self.joints},
             "clearance_mm": 1e3 * float(self.nearest.distance[least]),
             "clearance_between": self.nearest.pairs[least],
+            "fits": [
+                {**dataclasses.asdict(fit), "asked": number(fit.asked), "ok": fit.ok} for fit in self.fits
+            ],
             "reach_to_spare_mm": {side: 1e3 * slack for side, slack in self.reach.items()},
             "failures": [
                 {
@@ -183,6 +193,8 @@ def feasible(
     if not done.events:
         done = _with_events(robot, done)
     asked = demands(robot, done, acceleration=acceleration, torques=torques) + slides(robot, gait)
+    fitted = fits(robot, gait)
+    belts = [fit for fit in fitted if fit.what == "treadmill" and fit.asked > 0.0]
     locked = [k for k, joint in enumerate(JOINTS) if joint not in robot.joints]
     return Feasibility(
         robot=robot,
@@ -190,10 +202,11 @@ def feasible(
         joints=tuple(asked),
         nearest=nearest(robot, robot.from_gait(done)),
         gap=gap,
+        fits=fitted,
         reach={side: _reach(robot, done, side) for side in SIDES},
         dropped={JOINTS[k]: float(np.abs(full[:, k]).max()) for k in locked} | dropped(robot, gait),
-        cadence=min(FASTEST, *(demand.cadence for demand in asked)),
-        amplitude=amplitude(robot, done, asked, gap),
+        cadence=min(FASTEST, *(demand.cadence for demand in asked), *(fit.high / fit.asked for fit in belts)),
+        amplitude=amplitude(robot, gait, asked, gap, [keeps_up(fit, robot) for fit in belts]),
     )
 
 
@@ -215,6 +228,11 @@ def _with_events(robot: Robot, gait: Gait) -> Gait:
         return dataclasses.replace(gait, events=events(robot, gait))
     except GaitError:  # no cycles in it: phases are then unknown
         return gait
+
+
+def number(value: float) -> float | None:
+    """The value, or None for NaN, which JSON does not know."""
+    return None if np.isnan(value) else value
 
 
 def runs(mask: Mask) -> list[tuple[int, int]]:
