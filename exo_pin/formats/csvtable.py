@@ -66,7 +66,7 @@ def _check_separator(path: Path, header: str, required: Sequence[str], line: int
 
 def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: int) -> None:
     strange = [name for name in names if name not in known]
-    if len(strange) == len(names):
+    if 2 * len(strange) > len(names):
         shown, ours = (", ".join(words[:4])[:200] for words in (names, known))
         why = f"its columns ({shown} ...) are not ours ({ours} ...)"
         raise FormatError(path, f"{why}; a foreign table needs a mapping: its column = our joint", line=line)
