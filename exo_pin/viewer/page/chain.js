@@ -24,6 +24,11 @@ class Chain {
     });
   }
 
+  /** Brings the nodes' world matrices up to date, which else happens at the next picture. */
+  settle() {
+    this.root.updateWorldMatrix(true, true);
+  }
+
   /** Poses of all links in the scene's own world (z up): {name: 16 numbers, column by column}. */
   matrices() {
     const scene = this.root.parent;

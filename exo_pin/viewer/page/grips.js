@@ -51,6 +51,7 @@ class Grips {
   hold(grip) {
     if (this.held === grip) return;
     this.grab();
+    this.chain.settle();
     this.held = this.last = grip;
     for (const each of this.grips) each.target = split(each.node.matrixWorld);
   }

@@ -15,10 +15,11 @@ class Reach {
   /** {feet: {link: pose in the root}, q} -> {q, misses: {link: [distance, angle]}}; leaves the chain at q. */
   answer({ feet, q }) {
     const { base } = this.chain;
+    this.chain.settle();
     const targets = Object.entries(feet).map(([link, pose]) => ({ link, ...this.target(pose) }));
     const at = (angles) => {
       this.chain.set(angles, base);
-      this.chain.root.updateWorldMatrix(true, true);
+      this.chain.settle();
       return this.state(targets);
     };
     let best = q.map((angle, k) => clamp(angle, this.chain.joints[k].limits));
