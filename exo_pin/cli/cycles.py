@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--side",
         choices=SIDES,
-        help="whose heel strikes cut (default: left, or right if only that has cycles)",
+        help="whose heel strikes cut (default: the foot with more of them)",
     )
     parser.add_argument("--cutoff", type=float, metavar="HZ", help="low-pass the angles first")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -66,11 +66,11 @@ def run(args: argparse.Namespace) -> int:
 
 
 def side(gait: Gait) -> str:
-    """Left, or right where only the right foot has cycles."""
+    """The foot with more cycles; left if they have as many."""
     from exo_pin.gait import strides
 
-    whole = [any(not stride.why for stride in strides(gait, side)) for side in SIDES]
-    return SIDES[whole == [False, True]]
+    count = [sum(not stride.why for stride in strides(gait, foot)) for foot in SIDES]
+    return SIDES[count[1] > count[0]]
 
 
 def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
@@ -79,7 +79,13 @@ def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
     from exo_pin.gait.norms import CITATIONS
     from exo_pin.kinematics import spatiotemporal
 
-    none: dict[str, Any] = {"cycles": {}, "left_out": [], "spatiotemporal": {}, "sources": {}}
+    none: dict[str, Any] = {
+        "events_by": sorted({e.source or "not stated" for e in gait.events}),
+        "cycles": {},
+        "left_out": [],
+        "spatiotemporal": {},
+        "sources": {},
+    }
     try:
         numbers = spatiotemporal(robot, gait)
     except GaitError as error:
@@ -87,7 +93,7 @@ def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
     spans = [span for side in SIDES for span in strides(gait, side)]
     legs = robot.body.leg_length if robot.body else float("nan")
     usual, verdicts = normal(numbers, leg_length=legs), against_normal(numbers, leg_length=legs)
-    return {
+    return none | {
         "cycles": {side: sum(span.side == side and not span.why for span in spans) for side in SIDES},
         "left_out": [
             {"side": x.side, "start_s": x.start, "end_s": x.end, "why": x.why} for x in spans if x.why
@@ -125,7 +131,9 @@ def _rounded(value: float, unit: str) -> str:
 
 
 def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
-    print(f"source: {found['source'] or 'not stated'}")
+    print(f"source: {found['source'] or 'not stated'}; events: {', '.join(found['events_by'])}")
+    from exo_pin.gait.events import SOURCE
+
     sources = list(found["sources"])
     rows = [
         [
@@ -144,6 +152,8 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
     for k, citation in enumerate(found["sources"].values()):
         print(f"{k + 1}  {citation}")
     print("-  no published range was checked")
+    if any(SOURCE in by for by in found["events_by"]):
+        print("events by kinematics lie within two frames or so: stance and double support come out too long")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
     print_left_out(found)
