@@ -5,6 +5,7 @@ import pytest
 
 from exo_pin.errors import DescriptionError
 from exo_pin.kinematics import poses
+from exo_pin.retarget import TARGETS, load
 from exo_pin.robot import load_robot
 from exo_pin.viewer.links import linkage
 
@@ -86,3 +87,15 @@ def test_axes_are_normalised_and_sliding_joints_known():
 def test_what_is_no_urdf_is_refused(text):
     with pytest.raises(DescriptionError):
         linkage(text, "/x")
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_nested_nodes_of_other_robots_are_where_pinocchio_has_their_links(rng, name):
+    robot = load(name).robot
+    tree = linkage(robot.urdf, "/exo")
+    low, high = (np.clip(limit, -3.0, 3.0) for limit in (robot.lower, robot.upper))
+    q = rng.uniform(low, high)
+    expected = poses(robot, q, robot.frames)
+    named = dict(zip(robot.joints, q, strict=True))
+    found = [nested_pose(tree, tree.links[link], named) for link in robot.frames]
+    assert np.abs(found - expected).max() < 1e-9  # axes and rpy in files have some ten digits

@@ -70,7 +70,13 @@ def scene(
     if not set(FEET) <= set(robot.frames):
         walk = retarget(gait, robot)
         return retargeted(
-            walk, compare=compare, compare_title=compare_title, support=support, notes=notes, speed=speed
+            walk,
+            compare=compare,
+            compare_title=compare_title,
+            title=title,
+            support=support,
+            notes=notes,
+            speed=speed,
         )
     shown = motion(robot, gait, support)
     exo = linkage(robot.urdf, f"{ROOT}/exo")

@@ -9,19 +9,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.errors import FormatError
 from exo_pin.viewer import meshfiles
 from exo_pin.viewer.solids import Color, Solid
 from exo_pin.viewer.thinning import shaded, thinned
-
-Array = NDArray[np.float64]
 
 Triple = tuple[float, float, float]
 
@@ -30,6 +27,9 @@ FINENESS = 280
 
 INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
 """Names of folders that lie inside a package rather than being it."""
+
+KEPT = 256
+"""So many meshes stay in memory: several robots', or one robot's and its ghost's."""
 
 MANY = 3_000_000
 """Triangles that are read at most; what comes then is left away."""
@@ -59,16 +59,16 @@ class Meshes:
             self.missing[name] = "not found in the URDF's package"
             return []
         try:
-            parts = _read(path)
+            triangles, y_up, parts = _light(path, path.stat().st_mtime_ns, scale, self.cell, self.turned)
         except FormatError as error:
             self.missing[name] = error.why
             return []
-        self.y_up = self.y_up or any(part.y_up for part in parts)
-        self.triangles += sum(len(part.faces) for part in parts)
+        self.y_up = self.y_up or y_up
+        self.triangles += triangles
         if self.triangles > MANY:
             self.missing[name] = f"more than {MANY} triangles in all"
             return []
-        return [(self._light(part, scale), part.color) for part in parts]
+        return list(parts)
 
     def find(self, name: str) -> Path | None:
         """Where a file name of the URDF leads, or None where that is outside of what belongs to the URDF."""
@@ -87,19 +87,6 @@ class Meshes:
             if real.is_relative_to(os.path.realpath(root)) and real.is_file():
                 return real
         return None
-
-    def _light(self, part: meshfiles.Part, scale: Triple) -> Solid:
-        vertices = part.vertices
-        if part.y_up and self.turned:
-            vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)
-        vertices = vertices * np.array(scale)
-        faces = part.faces if np.prod(scale) > 0 else part.faces[:, ::-1]
-        return shaded(*thinned(vertices, faces, self._cell(vertices)))
-
-    def _cell(self, vertices: Array) -> float:
-        """Smaller for small parts, so that a finger is not a lump; never so small that a grid overflows."""
-        size = float(np.ptp(vertices, axis=0).max())
-        return max(min(self.cell, size / 24), size / 4000, 1e-6)
 
 
 def _own(urdf: Path) -> Iterator[Path]:
@@ -138,6 +125,22 @@ def _example_robot_data() -> tuple[Path, ...]:
     return tuple(Path(str(file.locate())).parent for file in files if str(file).endswith(mark))
 
 
-@cache
-def _read(path: Path) -> tuple[meshfiles.Part, ...]:
-    return tuple(meshfiles.read(path))
+@lru_cache(maxsize=KEPT)
+def _light(
+    path: Path, changed: int, scale: Triple, cell: float, turned: bool
+) -> tuple[int, bool, tuple[tuple[Solid, Color | None], ...]]:
+    """Triangles in the file, whether it has y up, and its parts, thinned; read again when it has changed."""
+    parts = meshfiles.read(path)
+    solids = tuple((_thin(part, scale, cell, turned), part.color) for part in parts)
+    return sum(len(part.faces) for part in parts), any(part.y_up for part in parts), solids
+
+
+def _thin(part: meshfiles.Part, scale: Triple, cell: float, turned: bool) -> Solid:
+    vertices = part.vertices
+    if part.y_up and turned:
+        vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)
+    vertices = vertices * np.array(scale)
+    faces = part.faces if np.prod(scale) > 0 else part.faces[:, ::-1]
+    size = float(np.ptp(vertices, axis=0).max())
+    # smaller for small parts, so that a finger is not a lump; never so small that a grid overflows
+    return shaded(*thinned(vertices, faces, max(min(cell, size / 24), size / 4000, 1e-6)))

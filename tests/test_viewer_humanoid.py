@@ -1,0 +1,198 @@
+"""Robots on the stage: their feet on the belt, their meshes, curves and sliders, whoever they are."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+import exo_pin
+from exo_pin import viewer
+from exo_pin.cli import main
+from exo_pin.gait import normative_gait
+from exo_pin.kinematics import poses
+from exo_pin.retarget import TARGETS, load, retarget
+from exo_pin.robot import load_urdf
+from exo_pin.viewer.curves import groups
+from exo_pin.viewer.humanoid import humanoid
+from exo_pin.viewer.looks import dressed
+from exo_pin.viewer.messages import Wish
+from exo_pin.viewer.reach import reacher
+from exo_pin.viewer.soles import soles
+
+GAIT = normative_gait().resampled(40)
+SINGLE = 1e-6  # [m]: float32 keeps seven digits
+DEEPEST = 0.0031  # [m]: what the support allows a corner to sink, and rounding
+LARGEST_PAGE = 3.5e6  # bytes of the offline page: the largest, TALOS's, has 2.7
+BARE = ["simple_humanoid"]
+NAMES = list(TARGETS)
+
+
+@pytest.fixture(scope="module")
+def plays():
+    return {name: humanoid(retarget(GAIT, name)) for name in NAMES}
+
+
+def drawn(play):
+    return [command for command in play.actors[0].commands if command["type"] == "set_object"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_its_feet_stand_on_the_belt_and_do_not_sink(plays, name):
+    shown = plays[name].shown
+    heights = shown.corners[..., 2]
+    assert heights.min() > -DEEPEST
+    lowest = heights.min(axis=1)
+    assert lowest.max() < 0.02  # one foot is always at the ground
+    assert shown.support.belt_speed > 0.3
+    scaled = 0.5 * (shown.feet[:, 0, :3, 3] + shown.feet[:, 1, :3, 3])[:, 2]
+    assert shown.base[:, 2, 3].mean() > scaled.mean()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_sole_lies_level_under_its_ankle_with_the_heel_behind_and_the_inner_side_within(name):
+    machine = load(name)
+    tree, _ = dressed(machine, "/x", None)
+    left, right = soles(machine, tree.shapes)
+    for sole, leg, inwards in ((left, machine.legs[0], -1), (right, machine.legs[1], 1)):
+        placed = leg.T @ sole.T  # standing, in the walker's axes
+        assert placed[:3, :3] == pytest.approx(np.eye(3), abs=1e-9)
+        assert placed[:2, 3] == pytest.approx(leg.ankle[:2], abs=1e-9)
+        assert placed[2, 3] < leg.ankle[2] + 1e-9
+        heel, front = sole.corners[:2], sole.corners[2:]
+        assert heel[:, 0].max() < 0 < front[:, 0].min() <= sole.tip
+        medial, lateral = sole.corners[[0, 2], 1], sole.corners[[1, 3], 1]
+        assert (inwards * (medial - lateral) > 0).all()
+        assert 0.02 <= sole.size[0] < 0.6 * leg.reach
+    assert left.corners * (1, -1, 1) == pytest.approx(
+        right.corners, abs=0.004
+    )  # mirrored, but for the meshes
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_its_visuals_are_drawn_in_little_room(plays, name):
+    play = plays[name]
+    assert not any("not drawn" in note for note in play.notes)
+    assert drawn(play)
+    size = sum(
+        len(part["array"].data)
+        for command in drawn(play)
+        for part in command["object"]["geometries"][0]["data"]["attributes"].values()
+    )
+    assert 1e4 < size < 5e6
+
+
+def test_the_largest_offline_page_stays_reasonable():
+    assert len(viewer.html(viewer.retargeted(retarget(GAIT, "talos")))) < LARGEST_PAGE
+
+
+def test_collada_files_with_y_up_are_turned_where_that_fits_the_joints():
+    """iCub's are made for tools that turn them: its shank's mesh then reaches to the ankle."""
+    machine = load("icub")
+    tree, meshes = dressed(machine, "/x", None)
+    assert meshes.y_up
+    assert meshes.turned
+    T_shank, T_ankle = poses(machine.robot, machine.stand, ("l_lower_leg", "l_ankle_pitch"))
+    ankle = np.linalg.inv(T_shank) @ T_ankle[:, 3]
+    mesh = tree.shapes["l_lower_leg"].vertices
+    assert (mesh.min(axis=0) - 0.02 < ankle[:3]).all()
+    assert (ankle[:3] < mesh.max(axis=0) + 0.02).all()
+
+
+@pytest.mark.parametrize("name", BARE)
+def test_capsules_and_plates_stand_for_what_has_no_looks(plays, name):
+    play = plays[name]
+    paths = {command["path"] for command in drawn(play)}
+    chain = play.actors[0].chain
+    for leg in load(name).legs:
+        assert f"{chain.links[leg.foot]}/plate" in paths
+    assert sum(path.endswith("/look/0") for path in paths) >= 6  # both thighs, shanks and arms
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_plots_and_sliders_are_those_of_its_leg_joints_with_their_limits(plays, name):
+    play, machine = plays[name], load(name)
+    per_leg = len(machine.legs[0].joints)
+    for tab, lower, upper in zip(
+        groups(play.tabs), (machine.robot.lower, -machine.robot.velocity), (machine.robot.upper, None),
+        strict=True,
+    ):  # fmt: skip
+        assert len(tab.plots) == per_leg
+        for plot in tab.plots:
+            assert [series.side for series in plot.series] == ["left", "right"]
+            for series in plot.series:
+                k = machine.robot.joints.index(machine.joints[series.column])
+                assert series.lower == pytest.approx(max(lower[k], -1e6))
+                if upper is not None:
+                    assert series.upper == pytest.approx(upper[k])
+    sliders = [turn for turn in play.actors[0].chain.joints if turn.limits is not None]
+    assert {turn.name for turn in sliders} == set(machine.joints)
+    assert {turn.side for turn in sliders} == {"left", "right"}
+
+
+def test_plots_say_what_a_joint_is_in_a_person(plays):
+    titles = [plot.title for plot in groups(plays["talos"].tabs)[0].plots]
+    assert titles[:4] == ["Leg 1 (hip rotation)", "Leg 2 (hip adduction)", "Leg 3 (hip flexion)",
+                          "Leg 4 (knee flexion)"]  # fmt: skip
+
+
+def test_notes_say_what_is_missed_whose_looks_they_are_and_how_deep_long_feet_dip(plays):
+    said = {name: " ".join(play.notes) for name, play in plays.items()}
+    assert "Apache-2.0" in said["talos"]
+    assert "BSD" not in said["simple_humanoid"]  # nothing of its files is shown
+    assert "below the ground" in said["romeo"]
+    assert "degrees at most" in said["bolt"]
+
+
+def test_a_robot_from_load_urdf_is_shown_as_it_is():
+    robot = load_urdf(load("bolt").robot.path)
+    scene = viewer.scene(robot, GAIT, title="my robot")
+    (chain,) = scene.facts.chains
+    assert {"FL_FOOT", "FR_FOOT"} <= set(chain.links)
+    assert scene.facts.title == "my robot"
+    assert "exo_pin" in exo_pin.view(robot, GAIT)._repr_html_()
+    bare = viewer.scene(load_urdf(robot.path.read_text()), GAIT)  # a text has no folder to look for meshes
+    assert any("not drawn" in note for note in bare.facts.notes)
+    assert any(path.endswith("/look") for group in bare.facts.groups for path in group.paths)
+
+
+def test_a_second_walk_is_a_ghost_of_the_same_robot():
+    scene = viewer.retargeted(retarget(GAIT, "bolt"), compare=normative_gait("fast"), compare_title="fast")
+    first, ghost = scene.facts.chains
+    assert ghost.name == "ghost"
+    assert scene.arrays["ghost_q"].shape == scene.arrays["q"].shape
+    assert np.abs(scene.arrays["ghost_q"] - scene.arrays["q"]).max() > 0.02
+    assert "Ghost: fast" in [group.title for group in scene.facts.groups]
+    assert first.links.keys() == ghost.links.keys()
+
+
+@pytest.mark.parametrize("name", ["talos", "g1"])
+def test_its_feet_can_be_taken_by_the_hand(plays, name):
+    play = plays[name]
+    chain = play.actors[0].chain
+    names = [turn.name for turn in chain.joints]
+    q = play.robot.q(dict(zip(names, play.actors[0].arrays["q"][7], strict=True)))
+    feet = {grip.link: poses(play.robot, q, [grip.link])[0] for grip in play.grips}
+    start = [q[play.robot.column(joint)] for joint in names]
+    wish = {link: tuple(pin.SE3ToXYZQUAT(pin.SE3(T))) for link, T in feet.items()}
+    answer = reacher(play.robot, names)(Wish(1, wish, tuple(start)))
+    assert answer["misses"] == {link: [0.0, 0.0] for link in feet}
+    assert play.grips[0].side == "left"
+
+
+def test_point_feet_are_not_offered_to_the_hand(plays):
+    assert plays["bolt"].grips == ()
+
+
+def test_replay_writes_a_page_of_a_robot_of_one_s_own(tmp_path, capsys):
+    path, page = tmp_path / "mine.urdf", tmp_path / "mine.html"
+    path.write_text(load("bolt").robot.path.read_text())
+    assert main(["replay", "slow", "--robot", str(path), "--html", str(page)]) == 0
+    assert "missed by" in capsys.readouterr().out
+    assert page.stat().st_size < LARGEST_PAGE
+
+
+@pytest.mark.parametrize("option", [["--device", "lokomat"], ["--hip-order", "yaw_roll_pitch"]])
+def test_options_of_the_exoskeleton_do_not_go_with_a_robot(tmp_path, capsys, option):
+    page = tmp_path / "x.html"
+    assert main(["replay", "--robot", "bolt", *option, "--html", str(page)]) == 2
+    assert option[0] in capsys.readouterr().err
+    assert not page.exists()
