@@ -23,7 +23,8 @@ _EXAMPLES = """examples:
   exo-pin replay walk.mot --html walk.html    one offline file that every browser plays
 
 The feet's paths are computed from the gait, inverse kinematics finds the exoskeleton's angles from the feet,
-and these are shown; the gait's own curves are drawn dashed beside them. Ctrl-C ends it."""
+and these are shown; the gait's own curves are drawn dashed beside them. Ctrl-C ends it. What was shown last
+time for the same arguments is shown until this run's own is there (EXO_PIN_CACHE= keeps nothing)."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

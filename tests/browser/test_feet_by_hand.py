@@ -16,7 +16,7 @@ from exo_pin.viewer.reach import TURN, reacher
 
 SINGLE = 1e-6  # [m]: the page's base is float32
 EXACT = 2e-6  # [m, rad]: twice what "reached" promises, for each of the two
-NEAREST = 1e-3  # [m]: how well two iterative solvers agree on the distance that remains out of reach
+NEAREST = 1e-4  # [m]: how well two iterative solvers agree on what remains out of reach
 LATENCY = 250.0  # [ms] from the question to the answer; measured 8 ms, but the browser draws in software
 SETTLED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
 HANDLE = (
