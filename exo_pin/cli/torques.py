@@ -17,8 +17,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--torques",
         metavar="FILE",
-        help="joint torques of the walk, for a further tab of curves: OpenSim's inverse dynamics (.sto), or "
-        "a .csv with time_s and columns like left_knee_flexion_torque_nm",
+        help="joint torques of the walk, for a further tab of curves: OpenSim's inverse dynamics (.sto), "
+        "Plug-in Gait's moments (.c3d), or a .csv with time_s and columns like left_knee_flexion_torque_nm",
     )
 
 
@@ -33,8 +33,9 @@ def given(args: argparse.Namespace) -> Torques | None:
     from exo_pin.formats import load_torques
     from exo_pin.formats.opensim import preset_of
 
-    if Path(args.torques).suffix.lower() not in _OPENSIM:
-        return load_torques(args.torques)
+    kind = Path(args.torques).suffix.lower()
+    if kind not in _OPENSIM:
+        return load_torques(args.torques, mass=args.mass if kind == ".c3d" else None)
     told = args.preset
     if told is None and Path(args.gait).suffix.lower() in _OPENSIM:
         told = preset_of(Path(args.gait), model=Path(args.model) if args.model else None)

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -50,16 +50,8 @@ def read_markers(path: Path) -> Markers:
     Raises:
         FormatError: With file and reason; ezc3d runs in a process of its own, with limits.
     """
-    data = read_bytes(path)
-    layout = c3dheader.check(path, data)
-    found = _child(path) if layout.processor == c3dnumbers.INTEL else _turned(path, data, layout)
+    time, found, places = _read(path)
     points = np.moveaxis(found["points"], 0, -1)  # (k, n, 3)
-    if points.shape != (layout.points, layout.frames, 3) or len(found["labels"]) < layout.points:
-        raise FormatError(
-            path, "the header and the data tell different numbers of points or frames; damaged?"
-        )
-    time = (layout.first - 1 + np.arange(layout.frames)) / layout.rate
-    places = unique(found["labels"][: layout.points].tolist())
     angular = _angular(places, found)
     spatial = [name for name in places if name not in angular and name not in _others(found)]
     position = np.moveaxis(points[[places[name] for name in spatial]], 0, 1) * _unit(
@@ -82,6 +74,35 @@ def read_markers(path: Path) -> Markers:
         )
     except GaitError as error:
         raise FormatError(path, str(error)) from error
+
+
+def read_outputs(path: Path, names: Sequence[str]) -> tuple[Array, dict[str, Array], float | None]:
+    """Time `(n,)` [s], the named model outputs `(n, 3)` that are there, the person's mass [kg] or None.
+
+    Outputs are in the file's own units; where all three numbers are 0 there is none: NaN. Errors as of
+    `read_markers`.
+    """
+    time, found, places = _read(path)
+    outputs = {name: found["points"][:, places[name]].T for name in names if name in places}
+    gaps = {
+        name: np.where((rows == 0).all(axis=1, keepdims=True), np.nan, rows) for name, rows in outputs.items()
+    }
+    mass = float(found["mass"][0]) if found["mass"].size else 0.0
+    return time, gaps, mass if mass > 0 else None
+
+
+def _read(path: Path) -> tuple[Array, dict[str, NDArray[Any]], dict[str, int]]:
+    """Time `(n,)` [s], what ezc3d reads, and where each point stands."""
+    data = read_bytes(path)
+    layout = c3dheader.check(path, data)
+    found = _child(path) if layout.processor == c3dnumbers.INTEL else _turned(path, data, layout)
+    shape = found["points"].shape
+    if shape != (3, layout.points, layout.frames) or len(found["labels"]) < layout.points:
+        raise FormatError(
+            path, "the header and the data tell different numbers of points or frames; damaged?"
+        )
+    time = (layout.first - 1 + np.arange(layout.frames)) / layout.rate
+    return time, found, unique(found["labels"][: layout.points].tolist())
 
 
 def read_gait(path: Path, reading: Reading) -> Gait:

@@ -50,6 +50,8 @@ def arrays(path: str) -> dict[str, np.ndarray]:
     out["points"] = file["data"]["points"][:3]
     times = np.atleast_2d(parameters.get("EVENT", {}).get("TIMES", {}).get("value", np.zeros((2, 0))))
     out["event_times"] = np.asarray(times, dtype=float)
+    mass = np.atleast_1d(parameters.get("PROCESSING", {}).get("Bodymass", {}).get("value", []))
+    out["mass"] = np.asarray(mass[:1], dtype=float)
     rate = parameters.get("ANALOG", {}).get("RATE", {}).get("value", [0.0])
     out["analog_rate"] = np.array(float(rate[0]) if len(rate) else 0.0)
     return out

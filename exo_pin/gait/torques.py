@@ -27,7 +27,7 @@ class Torques:
 
     Attributes:
         time: `(n,)` strictly increasing [s], on the clock of the walk that they belong to.
-        tau: `(n, 12)` [N m]; a column of NaN: the torque of that joint is not known.
+        tau: `(n, 12)` [N m]; NaN where the torque of a joint is not known.
         source: Where the numbers come from, in words.
 
     Raises:
@@ -54,8 +54,8 @@ class Torques:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """The joints whose torques are known."""
-        return tuple(name for name, column in zip(JOINTS, self.tau.T, strict=True) if np.isfinite(column[0]))
+        """The joints with torques."""
+        return tuple(name for k, name in enumerate(JOINTS) if np.isfinite(self.tau[:, k]).any())
 
     def at(self, time: ArrayLike) -> Array:
         """Torques `(m, 12)` at times `(m,)`, linear between samples; NaN outside them [N m].
@@ -77,18 +77,14 @@ class Torques:
 
 
 def _check(tau: Array, n: int) -> None:
-    """Raises `GaitError` unless `tau` is `(n, 12)`, plausible, and known or unknown column by column."""
+    """Raises `GaitError` unless `tau` is `(n, 12)`, plausible, and somewhere known."""
     if tau.shape != (n, len(JOINTS)):
         raise GaitError(
             f"tau has shape {tau.shape}, expected ({n}, {len(JOINTS)}): a row per time, columns as JOINTS"
         )
-    unknown = np.isnan(tau).all(axis=0)
-    if unknown.all():
-        raise GaitError("tau holds no torque: every joint is NaN")
-    bad = ~(np.abs(tau) <= LARGEST) & ~unknown
+    if np.isnan(tau).all():
+        raise GaitError("tau holds no torque: every one is NaN")
+    bad = np.abs(tau) > LARGEST
     if bad.any():
         row, k = np.argwhere(bad)[0]
-        why = (
-            "N mm given as N m?" if abs(tau[row, k]) > LARGEST else "a joint is known in every row or in none"
-        )
-        raise GaitError(f"torque of {JOINTS[k]} in row {row} is {tau[row, k]:g} N m: {why}")
+        raise GaitError(f"torque of {JOINTS[k]} in row {row} is {tau[row, k]:g} N m: N mm given as N m?")
