@@ -1,4 +1,4 @@
-"""Another robot's offline page: its links are where Pinocchio has them, with sliders and curves of its own."""
+"""Another robot's offline page: its links are where Pinocchio has them, with its own sliders and curves."""
 
 import numpy as np
 import pinocchio as pin
