@@ -12,6 +12,7 @@ from exo_pin.ik.paced import paced
 from exo_pin.kinematics import poses
 
 SPARED = 1.001  # the penalty leaves about 1e-5 rad of a step of 0.1 rad
+HURRIED = 1.005  # the same excess of a smaller step
 SAME = 1e-3  # mm: where two ways to one smooth minimum may stop
 BODY = Body.from_stature()
 TIGHT = ("lokomat", "lopes8", "planar5")
@@ -109,3 +110,13 @@ def test_another_optimiser_finds_no_better_motion():
         cost, found.ravel(), bounds=bounds, constraints={"type": "ineq", "fun": room}, method="SLSQP"
     )
     assert cost(found.ravel()) <= other.fun * 1.001 + 1e-6
+
+
+@pytest.mark.parametrize("device", ["planar7", "lopes8", "lokomat"])
+def test_redundant_and_hurried_devices_keep_a_third_of_their_pace(device):
+    recorded, robot, motion, _ = _case(device, 60)
+    steps = 0.3 * pace(recorded.gait, robot)
+    assert (_speeds(motion.q) > steps).any()
+    q = paced(robot, sole_targets(robot, recorded.corners), motion.q, steps, base=_stand(robot, motion))
+    assert (_speeds(q) <= HURRIED * steps).all()
+    robot.check_limits(q)

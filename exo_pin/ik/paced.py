@@ -33,6 +33,7 @@ _STEPS = 60  # Newton steps for each price
 _STILL = 1e-6  # a step this small changes nothing any more [rad, m]
 _WEAK = 1e-6  # nor does such a share of the cost
 _DAMPING, _CALMER, _STRONGER = 1e-3, 0.25, 4.0
+_FLOOR = 1e-9  # keeps the equations definite where joints are redundant [m^2/rad^2]
 
 
 def paced(robot: Robot, targets: Mapping[str, Target], start: Array, pace: Array, *, base: Array) -> Array:
@@ -119,7 +120,7 @@ class _Motion:
             if cost_there < cost:
                 done = cost - cost_there < _WEAK * cost
                 q, now, excess, cost = trial, there, over, cost_there
-                factor *= _CALMER
+                factor = max(factor * _CALMER, _FLOOR)
                 if done:
                     break
             else:
