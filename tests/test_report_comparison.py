@@ -1,5 +1,6 @@
 """The page of a comparison: everything that the comparison knows, escaped, self-contained, drawn whole."""
 
+import dataclasses
 import re
 from html import unescape
 from xml.etree import ElementTree
@@ -8,13 +9,14 @@ import numpy as np
 import pytest
 
 from exo_pin import report
-from exo_pin.anatomy import MOVEMENTS
+from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.cli import main
 from exo_pin.compare import Conditions, compare, table, worth
 from exo_pin.devices import DEVICES, Device, both
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.report import blocks
 from exo_pin.report.devices import joints, ranking, sticks
+from exo_pin.report.place import place
 
 GAIT = normative_gait().resampled(20)
 EVIL = '<script>alert("x")</script>&'
@@ -108,6 +110,30 @@ def test_sticks_of_a_device_that_loses_nothing_lie_on_the_recorded_ones():
         device = sorted(d for d, colour in paths if colour != "#bcc4cd")
         assert len(shadow) == len(device) == 12
         assert (shadow == device) == same
+
+
+def test_sticks_are_seen_from_the_left_wherever_the_walk_leads():
+    turned = np.array(GAIT.base)
+    turned[:, :3] = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]) @ turned[:, :3]
+    drawings = [
+        sticks(compare(dataclasses.replace(GAIT, base=b), ["hk4"]).best[0]) for b in (GAIT.base, turned)
+    ]
+    points = [np.array(re.findall(r"[ML]([\d.]+) ([\d.]+)", d.svg), dtype=float) for d in drawings]
+    assert points[0] == pytest.approx(points[1], abs=0.1)  # [px]; numbers in a drawing have two decimals
+
+
+def test_series_are_drawn_over_the_foot_s_own_cycle_as_the_mean_of_its_cycles():
+    walk = GAIT.repeated(3)
+    recording = Gait(walk.time, walk.q, base=walk.base, events=walk.events)
+    for side, late in (("left", 0), ("right", GAIT.events[2].time / GAIT.duration)):
+        one, mean = place(GAIT, side), place(recording, side)
+        assert mean.label == f"% of the {side} foot's cycle, mean of 2"
+        knee = one.of(GAIT.q[:, JOINTS.index("left_knee_flexion")])
+        assert mean.of(recording.q[:, JOINTS.index("left_knee_flexion")]) == pytest.approx(knee, abs=1e-9)
+        again = np.interp(late * GAIT.duration, GAIT.time, GAIT.q[:, JOINTS.index("left_knee_flexion")])
+        assert knee[[0, -1]] == pytest.approx(again, abs=1e-9)
+    short = place(Gait(GAIT.time[:5], GAIT.q[:5]), "left")
+    assert (short.label, len(short.x)) == ("time [s]", 5)
 
 
 def test_bars_grow_with_the_loss(compared):

@@ -79,7 +79,7 @@ def _summary(compared: Comparison) -> Section:
 
 def _sticks(compared: Comparison) -> Section:
     caption = (
-        "Grey: the recorded walk. Five moments from the left, and the third of them from the front; the "
+        "Grey: the recorded walk. Five moments of a cycle from the left, the third also from the front; the "
         "poses are set apart for the picture."
     )
     drawings = tuple(drawn.sticks(loss) for loss in compared.best)

@@ -8,18 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
-from exo_pin.compare import Comparison, Loss
+from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.report import palette, panels, skeleton, svg
 from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
 from exo_pin.report.chart import Chart, Curve, draw
+from exo_pin.report.place import place
 
 Array = npt.NDArray[np.float64]
 
 TOGETHER = "Devices whose curves lie on each other are drawn once, under all their names."
 _SAME = {"mm": 0.05, "deg": 0.05}  # curves nearer than this to each other are drawn as one
 _SHADOW = "#bcc4cd"
-_MOMENTS = 5
+_MOMENTS = 5  # every second of the ten that `skeleton.moments` finds
 _APART = 0.85  # [m] between two poses of sticks
 
 
@@ -52,11 +53,12 @@ def ranking(compared: Comparison) -> Drawing:
 def sticks(loss: Loss) -> Drawing:
     """Five moments of a device's walk from the left, one from the front; the recorded walk in grey."""
     walk, width = loss.walk, 520.0
-    rows = len(walk.gait) * np.arange(_MOMENTS) // _MOMENTS
+    rows, axes = skeleton.moments(walk.gait)[0][::2], _axes(walk)
     lines: list[tuple[Array, str, float]] = []
     for gait, shadow in ((walk.gait, True), (loss.motion.gait, False)):
         for side in reversed(SIDES):  # the left leg, nearer to the eye, is drawn last
             points = skeleton.chain(walk.robot, gait, side)[rows] - walk.base[rows, None, :3, 3]
+            points = points @ axes.T
             front = points[_MOMENTS // 2][:, [1, 2]] + [_APART * (_MOMENTS - 0.1), 0.0]
             moments = [p[:, [0, 2]] + [_APART * k, 0.0] for k, p in enumerate(points)]
             look = (_SHADOW, 5.0) if shadow else (svg.COLOURS[side], 2.0)
@@ -80,7 +82,7 @@ def sticks(loss: Loss) -> Drawing:
 
 
 def errors(compared: Comparison) -> tuple[Drawing, ...]:
-    """Position and orientation error of each foot over time, all devices."""
+    """Position and orientation error of each foot over its cycle, all devices."""
     kinds: tuple[tuple[str, str, float, Callable[[Loss], Array]], ...] = (
         ("position", "mm", 1e3, lambda loss: loss.position_error),
         ("orientation", "deg", float(np.degrees(1.0)), lambda loss: loss.rotation_error),
@@ -90,58 +92,74 @@ def errors(compared: Comparison) -> tuple[Drawing, ...]:
         for k, side in enumerate(SIDES):
             series = {loss.device.name: scale * error(loss)[:, k] for loss in compared.best}
             title = f"{side.capitalize()} foot, error of {name} [{unit}]"
-            drawings.append(_over_time(compared, f"{name}_{side}", title, series, unit, width=480))
+            drawings.append(_drawn(compared, side, f"{name}_{side}", title, series, unit, width=480))
     return tuple(drawings)
 
 
 def joints(compared: Comparison, side: str) -> tuple[Drawing, ...]:
-    """A leg's joints in every device that moves them, before the angles asked for (black) [deg]."""
+    """A leg's joints in every device that moves them, before the recorded angles (black) [deg]."""
     drawings = []
     for movement in MOVEMENTS:
         column = JOINTS.index(f"{side}_{movement}")
         moving = [loss for loss in compared.best if f"{side}_{movement}" in loss.motion.robot.joints]
         series = {loss.device.name: np.degrees(loss.motion.gait.q[:, column]) for loss in moving}
-        asked = np.degrees(compared.walk.gait.q[:, column])
+        recorded = np.degrees(compared.walk.gait.q[:, column])
         title = f"{side.capitalize()} {panels.TITLES[movement][0].lower()}{panels.TITLES[movement][1:]}"
-        drawings.append(_over_time(compared, f"joint_{side}_{movement}", title, series, "deg", asked, 20.0))
+        name = f"joint_{side}_{movement}"
+        drawings.append(_drawn(compared, side, name, title, series, "deg", recorded=recorded, least=20.0))
     return tuple(drawings)
 
 
 def centre_of_mass(compared: Comparison) -> tuple[Drawing, ...]:
-    """Forward, left, up about the recorded mean, every device before the recorded walk (black) [mm]."""
-    mean = compared.walk.com.mean(axis=0)
+    """Forward, left, up about the recorded walk's even travel, every device before it (black) [mm]."""
+    axes, travel = _axes(compared.walk), _travel(compared.walk)
     drawings = []
-    for axis, name in enumerate(("forward", "to the left", "up")):
-        series = {loss.device.name: 1e3 * (loss.motion.com - mean)[:, axis] for loss in compared.best}
-        recorded = 1e3 * (compared.walk.com - mean)[:, axis]
+    for k, name in enumerate(("forward", "to the left", "up")):
+        series = {
+            loss.device.name: 1e3 * (loss.motion.com @ axes[k] - travel[:, k]) for loss in compared.best
+        }
+        recorded = 1e3 * (compared.walk.com @ axes[k] - travel[:, k])
         title = f"Centre of mass, {name} [mm]"
-        drawings.append(_over_time(compared, f"com_{'xyz'[axis]}", title, series, "mm", recorded, 10.0))
+        name = f"com_{'xyz'[k]}"
+        drawings.append(_drawn(compared, "left", name, title, series, "mm", recorded=recorded, least=10.0))
     return tuple(drawings)
 
 
-def _over_time(
+def _axes(walk: Walk) -> Array:
+    """Forward, left and up (3, 3) in the world, by the mean heading of the pelvis."""
+    ahead = walk.base[:, :2, 0].mean(axis=0)
+    c, s = ahead / np.linalg.norm(ahead)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _travel(walk: Walk) -> Array:
+    """The even travel of the recorded centre of mass (n, 3), along forward, left and up [m]."""
+    along = walk.com @ _axes(walk).T
+    travel = np.tile(along.mean(axis=0), (len(along), 1))
+    if not walk.gait.periodic:
+        time = walk.gait.time - walk.gait.time.mean()
+        travel[:, :2] += np.outer(time, time @ along[:, :2] / (time @ time))
+    return travel
+
+
+def _drawn(
     compared: Comparison,
+    side: str,
     name: str,
     title: str,
     series: dict[str, Array],
     unit: str,
+    *,
     recorded: Array | None = None,
     least: float = 1.0,
     width: float = 360.0,
 ) -> Drawing:
-    gait = compared.walk.gait
+    """Series of all devices over the cycle of a foot, the recorded one behind them."""
+    at = place(compared.walk.gait, side)
     looks = palette.looks(loss.device.name for loss in compared.best)
-    time = panels.over_time(gait, gait.time)[0]
-    closed = {device: panels.over_time(gait, values)[1] for device, values in series.items()}
-    curves = palette.curves(time, closed, looks, same=_SAME[unit])
+    shown = {device: at.of(values) for device, values in series.items()}
+    curves = palette.curves(at.x, shown, looks, same=_SAME[unit])
     if recorded is not None:
-        curves = (Curve(time, panels.over_time(gait, recorded)[1], svg.INK, "recorded", width=3.0), *curves)
-    chart = Chart(
-        title=title,
-        x_label="time [s]",
-        curves=curves,
-        spans=panels.stances(gait),
-        least=least,
-        width=width,
-    )
+        curves = (Curve(at.x, at.of(recorded), svg.INK, "recorded", width=3.0), *curves)
+    chart = Chart(title=title, x_label=at.label, curves=curves, spans=at.spans, least=least, width=width)
     return Drawing(name, title, draw(chart))

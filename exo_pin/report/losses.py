@@ -117,8 +117,8 @@ def _span(found: Sequence[tuple[float, float, int]], scale: float) -> str:
 def mass(compared: Comparison) -> Section:
     """The path of the centre of mass."""
     caption = (
-        "Black: the recorded walk, about its mean. Device and wearer; a slide can trade motion with the hips "
-        f"at little gain for the feet, so a path may wander. {drawn.TOGETHER}"
+        "Black: the recorded walk, about its even travel. Device and wearer; a slide can trade motion with "
+        f"the hips at little gain for the feet, so a path may wander. {drawn.TOGETHER}"
     )
     return Section("Centre of mass", (Figure(drawn.centre_of_mass(compared), caption),))
 

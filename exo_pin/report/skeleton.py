@@ -76,7 +76,7 @@ def model_drawing(robot: Robot) -> Drawing:
 
 def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     """Ten poses of the first cycle (or of all) from the side, axes in cm, and how they were placed."""
-    rows, what = _ten(gait)
+    rows, what = moments(gait)
     chains = {side: chain(robot, gait, side)[rows] for side in SIDES}
     lowest = np.min([chain[:, 3:, 2].min(axis=1) for chain in chains.values()], axis=0)
     advance, how = _advance(robot, gait, rows)
@@ -102,7 +102,7 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     return Drawing("fig5_poses", chart.title, draw(chart)), note
 
 
-def _ten(gait: Gait) -> tuple[npt.NDArray[np.int64], str]:
+def moments(gait: Gait) -> tuple[npt.NDArray[np.int64], str]:
     """Rows at 0, 10 .. 90 % of the first cycle of a foot, or of all without one; and which it is."""
     start, span, what = float(gait.time[0]), gait.duration, "a recording without a whole cycle"
     found = [] if gait.periodic else [each for side in SIDES for each in strides(gait, side) if not each.why]
