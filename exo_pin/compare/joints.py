@@ -33,7 +33,8 @@ class Worth:
     Attributes:
         walk: The recorded walk.
         losses: By the movements that are driven, all 2^6 choices: root mean square distance of the soles'
-            corners from the recorded ones [m], best motion within the joint limits, the pelvis as recorded.
+            corners from the recorded ones [m], the best sample by sample within the joint limits (speeds are
+            not asked), the pelvis as recorded.
     """
 
     walk: Walk

@@ -17,8 +17,9 @@ class Dls:
         max_iterations: Steps for one frame from one start.
         restarts: Further starts for a frame that got stuck; they are used only where they reach the target,
             so that a frame out of reach stays near its neighbour.
-        warm_start: True: each frame starts from the answer of the one before; False: each frame starts from
-            the seed, independent of its neighbours.
+        warm_start: True: each frame starts from the answer of the one before, and where a limb has too few
+            joints for its targets, none of them jumps (`exo_pin.ik.pace`); False: each frame starts from the
+            seed, independent of its neighbours.
         damping: What a motion away from the sample before costs [m/rad]: the noise of the feet [m] divided by
             how far a joint moves between two samples [rad]. 0 for exact targets; 0.05 keeps the joints calm
             when feet with 3 mm of noise pull a nearly straight leg at 100 Hz, and hardly delays a bent one.
