@@ -41,6 +41,18 @@ def test_convert_writes_every_format(capsys, tmp_path, ending):
     assert load_gait(path).base == pytest.approx(normative_gait("free").base, abs=1e-6)
 
 
+def test_a_walk_between_the_frames_is_sampled_for_a_c3d_file(capsys, tmp_path):
+    walk = normative_gait("free")
+    save_gait(Gait(walk.time + 0.0037, walk.q, base=walk.base), tmp_path / "late.csv")
+    words = ["convert", tmp_path / "late.csv", tmp_path / "walk.c3d"]
+    code, _, err = run(capsys, *words)
+    assert (code, len(err.splitlines())) == (2, 1)
+    assert "sample the walk at a rate" in err
+    code, _, _ = run(capsys, *words, "--rate", 100)
+    assert code == 0
+    assert load_gait(tmp_path / "walk.c3d").time[:2] == pytest.approx([0.01, 0.02])
+
+
 def test_a_foreign_table_is_mapped_on_the_command_line(capsys, tmp_path):
     walk = normative_gait("free")
     table = tmp_path / "lab.csv"

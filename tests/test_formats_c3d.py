@@ -64,9 +64,18 @@ def test_a_pelvis_without_a_stated_vertical_stands_upright_and_one_seen_in_part_
 
 
 def test_uneven_samples_are_refused_and_nothing_is_written(tmp_path):
-    with pytest.raises(FormatError, match="resample the gait"):
+    with pytest.raises(FormatError, match="sample the walk at a rate first"):
         save_gait(Gait([0, 0.1, 0.25], np.zeros((3, 12))), tmp_path / "walk.c3d")
     assert not list(tmp_path.iterdir())
+
+
+def test_times_rounded_to_milliseconds_come_back_on_the_grid(tmp_path):
+    time = np.round(0.5 + np.arange(61) / 60, 3)
+    walk = normative_gait("free", samples=61)
+    save_gait(Gait(time, walk.q, base=walk.base), tmp_path / "walk.c3d")
+    back = load_gait(tmp_path / "walk.c3d")
+    np.testing.assert_allclose(back.time, 0.5 + np.arange(61) / 60, atol=CLOCK)
+    np.testing.assert_allclose(np.degrees(back.q), np.degrees(walk.q), atol=ANGLE)
 
 
 def test_only_what_fits_a_c3d_file_may_be_said_of_it(written):

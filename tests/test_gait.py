@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -206,6 +208,25 @@ def test_a_resampled_recording_keeps_its_samples_and_is_smooth(recording):
     truth = 0.3 * np.sin(np.multiply.outer(even.time, np.linspace(1, 6, 12)))
     # one-sided slopes at the ends: h^3 f''' / 10 at 12 ms steps and 6 rad/s
     np.testing.assert_allclose(even.q, truth, atol=1e-5)
+
+
+def test_a_sampled_recording_has_its_samples_where_a_camera_would(recording):
+    part = replace(recording, time=recording.time + 0.0037, events=())
+    even = part.sampled(50)
+    np.testing.assert_allclose(even.time * 50, np.round(even.time * 50), atol=1e-9)
+    assert part.time[0] <= even.time[0] < part.time[0] + 0.02
+    assert part.time[-1] - 0.02 < even.time[-1] <= part.time[-1]
+    truth = 0.3 * np.sin(np.multiply.outer(even.time - 0.0037, np.linspace(1, 6, 12)))
+    np.testing.assert_allclose(even.q, truth, atol=1e-5)
+
+
+def test_a_sampled_cycle_still_repeats_and_absurd_rates_are_refused(cycle):
+    again = cycle.sampled(100)
+    assert again.periodic
+    assert len(again) == round(100 * cycle.duration)
+    for rate in (0, -1, np.nan, 1e12, 0.1):
+        with pytest.raises(GaitError, match="sampled at"):
+            cycle.sampled(rate)
 
 
 def test_a_resampled_base_follows_the_turning_pelvis(recording, cycle):

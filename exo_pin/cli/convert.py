@@ -12,6 +12,7 @@ _EXAMPLES = """examples:
   exo-pin convert walk.csv walk.mot          the knee is written positive, and the header says so
   exo-pin convert free normal.csv            a normal walk as a file
   exo-pin convert walk.trc walk.npz          markers by inverse kinematics on a body scaled to them
+  exo-pin convert walk.csv walk.c3d --rate 100    C3D files need even samples
   exo-pin convert free walk.yaml             a ROS JointTrajectory for a controller
   exo-pin convert lab.csv walk.csv --units deg --map t=time --map KneeL=left_knee_flexion ..."""
 
@@ -25,6 +26,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="OUT",
         help="the new file; its ending (.csv .tsv .mot .sto .npz .yaml .json .c3d) is the format",
     )
+    parser.add_argument(
+        "--rate", type=float, metavar="HZ", help="sample the walk anew, at whole multiples of 1 / HZ"
+    )
     options.add_body(parser)
 
 
@@ -33,6 +37,8 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin.formats import save_gait
 
     gait = options.gait_from(args, options.body_from(args))
+    if args.rate is not None:
+        gait = gait.sampled(args.rate)
     save_gait(gait, args.output)
     print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s")
     return 0

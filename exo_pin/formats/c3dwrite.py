@@ -15,9 +15,7 @@ from exo_pin.formats.c3d import PELVIS, PIG, angle_of
 from exo_pin.formats.c3devents import WORDS
 from exo_pin.formats.table import Array
 from exo_pin.gait import Gait
-
-EVEN = 1e-3
-"""How far samples may lie off an even grid, as a fraction of the step: C3D has a rate, no times."""
+from exo_pin.signals import EVEN, ROUNDED
 
 AXIS = 100.0
 """Length of the pelvis's axes in the file [mm]."""
@@ -29,7 +27,7 @@ def write_gait(gait: Gait, path: Path) -> None:
     """Write angles in degrees as 32-bit numbers: they come back within 1e-5 degrees and 1e-6 m.
 
     Angles that Plug-in Gait has and a gait has not (knee Y and Z, ankle Z) are 0. Source and period are not
-    in the file.
+    in the file. It has a rate, no times: times that were rounded to milliseconds come back on the grid.
 
     Raises:
         FormatError: The samples are uneven or do not fall on frames, or the file cannot be written.
@@ -62,9 +60,11 @@ def _grid(gait: Gait, path: Path) -> tuple[float, int]:
     """Frames per second, and the number of the first frame from 0."""
     step = float(gait.time[-1] - gait.time[0]) / (len(gait) - 1)
     frames = gait.time / step
-    off = np.abs(frames - np.round(frames[0]) - np.arange(len(gait))).max()
-    if off > EVEN or frames[0] < -EVEN or frames[0] > 60_000:
-        why = f"its samples lie up to {off * step:.2g} s off the frames of a C3D file; resample the gait"
+    off = step * float(np.abs(frames - np.round(frames[0]) - np.arange(len(gait))).max())
+    if off > max(EVEN * step, min(ROUNDED, step / 4)) or frames[0] < -EVEN or frames[0] > 60_000:
+        why = (
+            f"its samples lie up to {off:.2g} s off the frames of a C3D file; sample the walk at a rate first"
+        )
         raise FormatError(path, f"cannot be written: {why}")
     return 1 / step, round(float(frames[0]))
 

@@ -25,6 +25,12 @@ from exo_pin.gait.event import Event, stance
 
 Array = NDArray[np.float64]
 
+MOST_SAMPLES = 1_000_000
+"""Of a walk that is sampled anew: hours; bounds memory."""
+
+GRID = 1e-6
+"""A sample this little before the recording's start, in samples, is on it."""
+
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Gait:
@@ -135,11 +141,35 @@ class Gait:
             raise GaitError(f"resampled to {n} samples: a whole number from 2 on is accepted")
         start, span = self.time[0], self.duration
         time = start + span * np.arange(n) / n if self.periodic else np.linspace(start, self.time[-1], n)
+        return self._at(time)
+
+    def sampled(self, rate: float) -> Gait:
+        """The same walk as a camera of that rate [Hz] would see it; interpolated as by `resampled`.
+
+        A recording has its samples at whole multiples of 1 / rate, as far as they lie within it; a gait that
+        repeats has the number that comes nearest to the rate.
+
+        Raises:
+            GaitError: That would be fewer than 2 samples, or more than a million.
+        """
+        if not (np.isfinite(rate) and 2 <= self.duration * rate + 1 <= MOST_SAMPLES):
+            raise GaitError(f"sampled at {rate:g} Hz: 2 to {MOST_SAMPLES} samples are accepted")
+        if self.periodic:
+            return self.resampled(max(round(self.duration * rate), 2))
+        first, last = np.ceil(self.time[0] * rate - GRID), np.floor(self.time[-1] * rate + GRID)
+        time = np.clip(np.arange(first, last + 1) / rate, self.time[0], self.time[-1])
+        if len(time) < 2:
+            raise GaitError(f"sampled at {rate:g} Hz: no two samples lie within the recording")
+        events = tuple(event for event in self.events if time[0] <= event.time <= time[-1])
+        return replace(self, events=events)._at(time)
+
+    def _at(self, time: Array) -> Gait:
+        """The same walk at other times, for periodic gaits those of an evenly divided cycle."""
         q = curves.resampled(self.time, self.q, time, self.periodic)
         base = None
         if self.base is not None:
             flat = curves.resampled(self.time, self.base.reshape(-1, 16), time, self.periodic)
-            base = rigid.nearest_pose(flat.reshape(n, 4, 4))
+            base = rigid.nearest_pose(flat.reshape(len(time), 4, 4))
         return replace(self, time=time, q=q, base=base)
 
     def repeated(self, k: int) -> Gait:
