@@ -17,6 +17,7 @@ from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
 from exo_pin.kinematics import center_of_mass, spatiotemporal
 from exo_pin.report import angles, axis, blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.report.heading import ahead
 from exo_pin.report.motion import motion
 from exo_pin.robot import load_robot, load_urdf
 
@@ -362,6 +363,28 @@ def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
     axes = {name: axis for name, _, axis in frames[1:]}
     for movement, mirrored in zip(MOVEMENTS, (1, -1, -1, 1, 1, -1), strict=True):
         np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
+
+
+@pytest.mark.parametrize("degrees", [-140.0, 0.0, 90.0])
+def test_a_walk_along_any_axis_of_the_laboratory_has_the_same_report(recording, degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    T = np.array([[c, -s, 0, 1.0], [s, c, 0, -2.0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    straight, _ = ahead(recording)
+    turned, how = ahead(replace(recording, base=T @ recording.base))
+    np.testing.assert_allclose(turned.base[:, :3, :3], straight.base[:, :3, :3], atol=1e-12)
+    shift = turned.base[:, :3, 3] - straight.base[:, :3, 3]
+    np.testing.assert_allclose(shift, np.tile(shift[0], (len(recording), 1)), atol=1e-12)
+    assert float(re.search(r"(\S+) deg", how)[1]) == pytest.approx(degrees, abs=1)
+
+
+def test_a_walk_that_turns_around_keeps_its_axes(recording):
+    angle = np.linspace(0, 2 * np.pi, len(recording))
+    base = np.tile(np.eye(4), (len(recording), 1, 1))
+    base[:, :2, :2] = np.moveaxis(
+        np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]), 2, 0
+    )
+    round_trip = replace(recording, base=base)
+    assert ahead(round_trip)[0] is round_trip
 
 
 def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):

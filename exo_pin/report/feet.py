@@ -17,16 +17,22 @@ from exo_pin.robot import Robot
 Array = npt.NDArray[np.float64]
 
 
-def paths(robot: Robot, gait: Gait) -> Section:
-    """Heels and balls from the side and over time, and ten poses."""
+def paths(robot: Robot, gait: Gait, forward: str) -> Section:
+    """Heels and balls from the side and over time, and ten poses.
+
+    Args:
+        robot: The device on a body.
+        gait: The walk, going along x.
+        forward: What that direction is, in words.
+    """
     base = robot.base_of(gait)
     corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
     drawings = foot_paths(gait, corners)
     placed = "where its file puts it" if gait.base is not None else "still, as the support holds it"
     stick, note = skeleton.poses_chart(robot, gait)
     caption = (
-        f"Heel and ball: midway between the sole's corners. World frame, the pelvis {placed}; heights count "
-        "from the world's ground, where soles of a body of another size need not end."
+        f"Heel and ball: midway between the sole's corners. Forward is {forward}; the pelvis is {placed}; "
+        "heights count from the world's ground, where soles of a body of another size need not end."
     )
     return Section(
         "Paths of the feet", (Figure(drawings, caption, columns=2), Figure((stick,), note, columns=1))

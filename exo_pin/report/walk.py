@@ -10,6 +10,7 @@ from exo_pin.gait import Gait, Torques
 from exo_pin.report import actuators, checks, facts, feet
 from exo_pin.report.angles import curves
 from exo_pin.report.blocks import Document, Player, Section, Tiles, Words
+from exo_pin.report.heading import ahead
 from exo_pin.report.mass import mass
 from exo_pin.report.motion import motion
 from exo_pin.report.ranges import ranges
@@ -62,6 +63,7 @@ def walk(
         GaitError: The torques belong to another time.
     """
     about = about or About()
+    gait, forward = ahead(gait)
     verdict = crosscheck.check(robot, gait)
     rates = motion(robot, gait, cutoff)
     sections = [
@@ -73,13 +75,13 @@ def walk(
         ranges(robot, gait),
         actuators.rates(robot, gait, rates),
         *([actuators.torques(robot, gait, torques)] if torques else []),
-        feet.paths(robot, gait),
+        feet.paths(robot, gait, forward),
         mass(robot, gait),
         feet.contact(gait),
         facts.numbers(robot, gait),
         checks.inverse(gait, verdict),
         checks.agreement(verdict),
-        facts.choices(robot, gait, about.choices, rates.how, normal),
+        facts.choices(robot, gait, {"forward": forward, **about.choices}, rates.how, normal),
     ]
     under = [f"{name}: {words}" for name, words in (("walk", about.what), ("who", about.who)) if words]
     return Document(about.title, "; ".join([*under, *([about.when] if about.when else [])]), tuple(sections))
