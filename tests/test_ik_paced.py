@@ -1,5 +1,7 @@
 """Motions under speed limits: the limits hold, nothing is lost without need, another optimiser agrees."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ BODY = Body.from_stature()
 TIGHT = ("lokomat", "lopes8", "planar5")
 
 
+@functools.cache
 def _case(device, samples, pelvis="device"):
     conditions = Conditions(pelvis)
     recorded, robot = walk(normative_gait().resampled(samples)), robot_for(find(device), BODY, conditions)
