@@ -3,10 +3,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from exo_pin import viewer
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 from exo_pin.viewer.actor import aligned
 
@@ -62,3 +64,27 @@ def test_a_walk_recorded_elsewhere_is_brought_beside_the_first(gait):
     turned = np.array([[0.0, -1, 0, 3], [1, 0, 0, -2], [0, 0, 1, 0], [0, 0, 0, 1]])
     elsewhere = replace(gait, base=turned @ gait.base)
     assert aligned(gait, elsewhere).base == pytest.approx(gait.base, abs=SAME)
+
+
+def test_toes_bend_as_far_as_the_ground_demands_and_no_further():
+    robot = load_robot(device="planar9")
+    gait = normative_gait()
+    scene = viewer.scene(robot, gait)
+    (chain,) = [chain for chain in scene.facts.chains if chain.name == "exo"]
+    base = np.array([pin.XYZQUATToSE3(row.astype(float)).homogeneous for row in scene.arrays["base"]])
+    q = np.tile(robot.neutral, (len(gait), 1))
+    for k, turn in enumerate(chain.joints):
+        q[:, robot.column(turn.name)] = scene.arrays["q"][:, k]
+    leg = robot.body.leg("left")
+    length = leg.foot_length - leg.heel - leg.ball
+    tip = np.array([length, 0.0, 0.0, 1.0])
+    bent = {joint: q[:, robot.column(joint)] for joint in ("left_toe_dorsiflexion", "right_toe_dorsiflexion")}
+    assert all(angle.min() == 0 and 0.3 < angle.max() <= np.radians(60) + 1e-6 for angle in bent.values())
+    straight = q.copy()
+    for joint in bent:
+        straight[:, robot.column(joint)] = 0
+    for side in ("left", "right"):
+        link = f"{side}_toe_plate"
+        low = (poses(robot, q, [link], base=base)[:, 0] @ tip)[:, 2]
+        rigid = (poses(robot, straight, [link], base=base)[:, 0] @ tip)[:, 2]
+        assert low.min() > rigid.min() + 0.03

@@ -71,12 +71,14 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     gait, note = options.with_events(robot, gait)
     name = Path(args.gait).name
     notes = [line for line in (gait.source, note) if line]
+    title = name
     if args.device == "exo12":
         shown, beyond = _recovered(robot, gait, name)
         notes += beyond
     else:
         robot, shown, said = _on_device(args, body, gait)
         notes.append(said)
+        title = f"{name} on {said.partition(' (')[0]}"
     second = None if args.compare is None else options.load(args.compare, body, preset=args.preset)
     return viewer.scene(
         robot,
@@ -85,7 +87,7 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         compare=second,
         compare_title=Path(args.compare or "").name,
         torques=curves,
-        title=f"{name} - exo_pin",
+        title=f"{title} - exo_pin",
         support=args.support,
         notes=notes,
         speed=args.speed,

@@ -15,6 +15,7 @@ from exo_pin.viewer.facts import Chain, Group
 from exo_pin.viewer.links import Linkage, linkage
 from exo_pin.viewer.motion import Motion, motion
 from exo_pin.viewer.protocol import Command, Material
+from exo_pin.viewer.toes import toes
 
 Array = NDArray[np.float64]
 
@@ -105,6 +106,9 @@ def flat_poses(T: Array) -> Array:
 def samples(robot: Robot, shown: Motion, tree: Linkage, prefix: str) -> dict[str, Array]:
     """The arrays of a chain: joint values in the order of its turns, and base poses."""
     angles = dict(zip(robot.joints, shown.q.T, strict=True))
+    if robot.body is not None:  # a gait has no toe angles
+        most = {turn.name: turn.limits[1] for turn in tree.turns if turn.limits is not None}
+        angles |= {toe: np.minimum(q, most.get(toe, 0.0)) for toe, q in toes(robot.body, shown).items()}
     still = np.zeros(len(shown.time))
     q = np.stack([angles.get(turn.name, still) for turn in tree.turns], axis=1)
     return {f"{prefix}q": q, f"{prefix}base": flat_poses(shown.base)}

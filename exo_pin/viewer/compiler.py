@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import FEET, SIDES
+from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
@@ -174,6 +175,8 @@ def _notes(exo: Linkage, actors: Iterable[Actor]) -> list[str]:
     notes = []
     if exo.skipped:
         notes.append(f"{exo.skipped} visuals of the URDF are meshes and are not drawn.")
+    if any(turn.name in TOES for turn in exo.turns):
+        notes.append("A gait has no toe angles: the toes bend as far as the ground demands.")
     if any(actor.chain.name == "wearer" for actor in actors):
         notes.append(
             "The wearer's trunk and arms are illustration; hips, knees and ankles are the exoskeleton's."
