@@ -35,6 +35,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--robot", default="talos", metavar="ROBOT", help="name, .urdf or .toml file (default: talos)"
     )
+    parser.add_argument(
+        "--table", action="store_true", help="all known robots in one Markdown table (of docs/robots.md)"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("-o", "--output", metavar="FILE", help="joint angles as CSV: time_s, <joint>_deg ...")
     options.add_body(parser)
@@ -45,7 +48,13 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin.retarget import retarget
 
     body = options.body_from(args)
-    result = retarget(options.gait_from(args, body), args.robot, body)
+    gait = options.gait_from(args, body)
+    if args.table:
+        from exo_pin.retarget.table import markdown
+
+        print(markdown(gait, body), end="")
+        return 0
+    result = retarget(gait, args.robot, body)
     if args.json:
         show.as_json(result.facts())
     else:
