@@ -165,6 +165,27 @@ def test_missing_coordinates_are_named(path):
     refused(path, storage(values, twice), "'knee_angle_r' occurs more than once", 5)
 
 
+def test_a_joint_that_the_model_lacks_is_held_at_a_number(path):
+    names = ["x" if name.startswith("subtalar") else name for name in NAMES]
+    names[5] = "y"
+    refused(path, storage(degrees(), names), "0=left_ankle_inversion,right_ankle_inversion", 5)
+    gait = load_gait(path, mapping={"0": "left_ankle_inversion", "-5": "right_ankle_inversion"})
+    np.testing.assert_allclose(np.degrees(gait.q[:, [5, 11]]), [[0, -5]] * 5, atol=1e-9)
+    assert "so held: subtalar_angle_l, subtalar_angle_r" in gait.source
+    refused(path, storage(degrees(), names), "only a number, which holds", mapping={"x": "left_ankle_inversion"})
+    with pytest.raises(UnknownNameError, match="joint 'ankle'"):
+        load_gait(path, mapping={"0": "ankle"})
+
+
+def test_gaps_matter_only_in_the_columns_that_are_read(path):
+    rows = storage(np.hstack([degrees(), np.full((5, 1), np.nan)]), [*NAMES, "arm_flex_r"])
+    path.write_text(rows)
+    assert load_gait(path).q.shape == (5, 12)
+    values = degrees()
+    values[2, 4] = np.nan
+    refused(path, storage(values), "knee_angle_r is nan: expected a finite number", 8)
+
+
 def test_forces_and_velocities_are_refused_in_one_line(path):
     forces = [f"ground_force_{i}" for i in range(12)]
     refused(path, storage(degrees(), forces), "holds forces or moments", 5)

@@ -223,7 +223,7 @@ def test_coordinates_that_the_file_lacks_have_the_models_default(model, tmp_path
     gait = load_gait(path, model=model)
     assert not gait.q.any()
     assert 0.8 < gait.base[:, 2, 3].min() < 0.9
-    assert "at the model's default: hip_adduction_l, subtalar_angle_l" in gait.source
+    assert "not in the file, so held: hip_adduction_l, subtalar_angle_l" in gait.source
     assert "pelvis_ty" in gait.source
 
 

@@ -59,6 +59,10 @@ class Convention(NamedTuple):
         """Names of the pelvis's coordinates."""
         return tuple(dict.fromkeys(name for joint in self.chain for name in joint.coordinates))
 
+    def holding(self, values: Mapping[str, float]) -> Convention:
+        """The same with further coordinates that a file need not name."""
+        return self._replace(defaults={**self.defaults, **values})
+
     @property
     def turning(self) -> tuple[str, ...]:
         """Those of them that are angles."""

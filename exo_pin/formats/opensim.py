@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
-from exo_pin.errors import FormatError
+from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats.convention import Convention, by_habit, by_model, habit_of, hip_angles
 from exo_pin.formats.notes import Notes, read, to_gait, to_lines
 from exo_pin.formats.pelvis import from_opensim, to_opensim
@@ -63,12 +63,12 @@ def read_gait(path: Path, reading: Reading) -> Gait:
             or a knee whose sign is not clear.
         UnknownNameError: There is no such preset.
     """
-    reading.refuse(path, "mapping", why="its names tell")
     chosen = None if reading.preset is None else preset(reading.preset, OPENSIM)
-    storage = read_storage(path)
-    means = _means(reading)
+    storage = read_storage(path, gaps=True)
+    degrees = _in_degrees(storage, reading.units)
+    means = _means(reading).holding(_held(path, reading.mapping, degrees))
     table = _coordinates(storage, means)
-    time, degrees = table.times(TIME), _in_degrees(storage, reading.units)
+    time = table.times(TIME)
     values, held = _values(table, means, degrees)
     chosen, how = (chosen, "as told") if chosen else _sign(storage, values, means)
     base = None
@@ -79,7 +79,7 @@ def read_gait(path: Path, reading: Reading) -> Gait:
         sign = "positive" if chosen.knee > 0 else "negative"
         said = [f"{path.name}, read as {chosen.name}: knee {sign} in flexion ({how})"]
         said += [means.said] if base is not None or reading.model else []
-        said += [f"not in the file, so at the model's default: {', '.join(held)}"] if held else []
+        said += [f"not in the file, so held: {', '.join(held)}"] if held else []
         notes = notes._replace(source="; ".join(said))
     return to_gait(path, time, _legs(values, chosen, means), base, notes)
 
@@ -143,7 +143,13 @@ def _coordinates(storage: Storage, means: Convention) -> Table:
         )
     pelvis = [name for name in means.pelvis if name not in times and name not in means.defaults]
     if gone or 0 < len(pelvis) < len(means.pelvis):
-        raise FormatError(path, f"missing coordinates: {', '.join(gone or pelvis)}", line=line)
+        joints = ",".join(name for name, column in COLUMNS.items() if column in gone)
+        hint = (
+            f"; a model (.osim) may do without, a mapping holds joints at a number: 0={joints}"
+            if joints
+            else ""
+        )
+        raise FormatError(path, f"missing coordinates: {', '.join(gone or pelvis)}{hint}", line=line)
     return Table(path, names, table.values, table.lines)
 
 
@@ -155,12 +161,28 @@ def _values(table: Table, means: Convention, degrees: bool) -> tuple[dict[str, A
     turning = [name for name in there if name not in slides]
     if not set(means.pelvis) & set(there):
         wanted = list(LEGS)
+    table.refuse(np.isnan(table.columns(there)), there, "expected a finite number")
     table.angles([name for name in turning if name in LEGS], degrees=degrees)  # refuses what is absurd
     values = dict(zip(turning, table.columns(turning).T * (np.pi / 180 if degrees else 1.0), strict=True))
     values |= dict(zip(slides, table.columns(slides).T, strict=True))
     held = [name for name in wanted if name not in values]
     n = len(table.values)
     return values | {name: np.full(n, means.defaults.get(name, 0.0)) for name in held}, held
+
+
+def _held(path: Path, mapping: Mapping[str, str], degrees: bool) -> dict[str, float]:
+    """Coordinates that the user holds at a number [rad]; other names need no mapping here."""
+    held = {}
+    for key, names in mapping.items():
+        for name in names.split(","):
+            if name.strip() not in COLUMNS:
+                raise UnknownNameError("joint", name.strip(), JOINTS)
+            try:
+                held[COLUMNS[name.strip()]] = float(key) * (np.pi / 180 if degrees else 1.0)
+            except ValueError:
+                why = f"mapping {key[:40]!r}: only a number, which holds a joint, is mapped here"
+                raise FormatError(path, why) from None
+    return held
 
 
 def _plain(name: str) -> str:

@@ -35,8 +35,12 @@ class Storage(NamedTuple):
     table: Table
 
 
-def read_storage(path: Path) -> Storage:
+def read_storage(path: Path, *, gaps: bool = False) -> Storage:
     """Read a storage file; what it says of its size must be true, and is never trusted.
+
+    Args:
+        path: The file.
+        gaps: Whether a cell may be NaN.
 
     Raises:
         FormatError: If it is not such a file, or cut short.
@@ -59,7 +63,8 @@ def read_storage(path: Path) -> Storage:
     if start is None:
         raise FormatError(path, "no column names after 'endheader'", line=end + 1)
     names = lines[start].strip().split("\t") if "\t" in lines[start].strip() else lines[start].split()
-    table = parse(path, [name.strip() for name in names], lines[start + 1 :], first=start + 2, delimiter=None)
+    names = [name.strip() for name in names]
+    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=None, gaps=gaps)
     _check_size(path, keys, table)
     return Storage(lines[0].strip(), keys, split(lines[:end]), table)
 
