@@ -152,11 +152,27 @@ def test_another_version_s_rows_are_not_mixed_in(tmp_path, done, monkeypatch):
     path = tmp_path / "s.csv"
     path.write_bytes(done[1].read_bytes())
     monkeypatch.setattr("exo_pin.__version__", "99.0")
-    with pytest.raises(DescriptionError, match=r"exo_pin 0\.1\.0"):
+    with pytest.raises(DescriptionError, match=r"another exo_pin \(0\.1\.0"):
         study.run(plan(), path)
     fresh = study.run(plan(("slow",), devices=("hk4",)), path, restart=True)
     assert {row.version for row in study.load(path)} == {"99.0"}
     assert fresh.kept == 0
+
+
+def test_rows_of_other_code_are_not_mixed_in(tmp_path, done, monkeypatch):
+    path = tmp_path / "s.csv"
+    path.write_bytes(done[1].read_bytes())
+    monkeypatch.setattr("exo_pin.study.case._code", lambda: "another solver")
+    with pytest.raises(DescriptionError, match="another exo_pin"):
+        study.run(plan(), path)
+
+
+def test_a_worker_of_another_version_computes_nothing(monkeypatch):
+    cases = plan(("slow",))
+    monkeypatch.setattr("exo_pin.__version__", "99.0")
+    result = study.run(cases)
+    assert result.rows == ()
+    assert result.failures == {"slow": "slow: the worker has exo_pin 99.0"}
 
 
 def test_a_file_that_is_no_study_is_not_overwritten(tmp_path):

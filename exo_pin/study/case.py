@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
 import math
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import exo_pin
 from exo_pin.anatomy import Body
 from exo_pin.compare import PHASES, Conditions, Loss, compare
+from exo_pin.description import sources
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
@@ -37,6 +39,7 @@ class Case:
         body: Who walks; None: the body that a marker trial is solved on, else `Body.from_stature()`.
         parts: The devices to be put through the walk, each with what it is granted.
         preset: Sign convention of a recording that does not tell it; None: find out.
+        version: Of the exo_pin that made the plan, which a worker must have too.
     """
 
     gait: str
@@ -44,19 +47,18 @@ class Case:
     parts: tuple[tuple[Conditions, Device], ...]
     path: str = ""
     preset: str | None = None
+    version: str = field(default_factory=lambda: exo_pin.__version__)
 
-    @cached_property
+    @functools.cached_property
     def fingerprints(self) -> tuple[str, ...]:
         """One for each part: equal if and only if everything that its rows depend on is equal.
 
         Raises:
             FormatError: The recording cannot be read.
         """
-        from exo_pin import __version__
-
         walk = hashlib.sha256(read_bytes(self.path)).hexdigest() if self.path else ""
         body = None if self.body is None else _plain(self.body)
-        shared = (__version__, self.gait, walk, self.preset, body)
+        shared = (self.version, _code(), self.gait, walk, self.preset, body)
         return tuple(
             hashlib.sha256(repr((shared, _plain(granted), _plain(device))).encode()).hexdigest()[:_DIGITS]
             for granted, device in self.parts
@@ -65,7 +67,9 @@ class Case:
     def without(self, done: Container[str]) -> Case:
         """The same case without the parts of these fingerprints."""
         pairs = zip(self.parts, self.fingerprints, strict=True)
-        return dataclasses.replace(self, parts=tuple(part for part, mark in pairs if mark not in done))
+        rest = dataclasses.replace(self, parts=tuple(part for part, mark in pairs if mark not in done))
+        _ = rest.fingerprints  # made here, where the plan is, and carried to the worker
+        return rest
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,8 @@ def solve(case: Case) -> Outcome:
 
     Whatever goes wrong with a recording is told in the outcome, so that one bad file does not stop the rest.
     """
+    if case.version != exo_pin.__version__:
+        return Outcome(case, failure=_line(case, f"the worker has exo_pin {exo_pin.__version__}"))
     try:
         gait, body = _walk(case)
         rows = [
@@ -136,8 +142,6 @@ def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[R
 
 
 def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str, inputs: str) -> Row:
-    from exo_pin import __version__
-
     body = loss.walk.robot.body
     assert body is not None  # compare made it
     gait, facts = loss.walk.gait, loss.facts()
@@ -173,9 +177,19 @@ def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str
         knee_change_deg=facts["angle_change_deg"]["knee_flexion"],
         com_rms_mm=facts["com_error_mm"],
         doubts=doubtful,
-        version=__version__,
+        version=case.version,
         inputs=inputs,
     )
+
+
+@functools.cache
+def _code() -> str:
+    """Digest of what the numbers follow from: this package, without the rooms that only show them."""
+    package = Path(__file__).parents[1]
+    shown = {package / room for room in ("cli", "report", "viewer")}
+    files = sorted(file for file in package.rglob("*.py") if not shown & set(file.parents))
+    files += sorted(sources().glob("*.xacro"))
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
 
 
 def _plain(record: DataclassInstance) -> dict[str, Any]:

@@ -54,7 +54,7 @@ class Row:
         com_rms_mm: Distance of the centre of mass from the recorded walk's, root mean square.
         doubts: Reasons to doubt how the recording was read; empty for a usual walk.
         version: Of exo_pin.
-        inputs: Fingerprint of version, walk, body, device and conditions: equal inputs, equal rows.
+        inputs: Fingerprint of exo_pin's code, walk, body, device and conditions: equal inputs, equal rows.
     """
 
     gait: str

@@ -113,9 +113,9 @@ def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Ro
     for row in rows:
         if row.inputs not in wanted:
             raise DescriptionError(
-                f"{path} holds another study (exo_pin {row.version}: {row.device}, {row.gait}, "
-                f"{row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to go on with it repeat "
-                "its options, else choose another file, or restart it"
+                f"{path} holds another study, or one of another exo_pin ({row.version}: {row.device}, "
+                f"{row.gait}, {row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to go on "
+                "with it repeat its options, else choose another file, or leave its rows behind (--restart)"
             )
         found.setdefault(row.inputs, {})[row.motion] = row
     return {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
