@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import Event, Gait
+from exo_pin.gait import Event, Gait, normative_gait
+from exo_pin.gait.heading import heading, turned
 
 ROUNDING = 1e-12  # [rad, m] sums of a few dozen terms of size 1
 SPECTRAL = 1e-9  # [rad/s^2] rounding times the square of the highest frequency
@@ -317,3 +318,20 @@ def test_stance_without_usable_events_is_an_error(recording):
     twice = [Event(0.0, "toe_off", "left"), Event(0.1, "toe_off", "left")]
     with pytest.raises(GaitError, match="take turns"):
         Gait([0, 0.1], np.zeros((2, 12)), events=twice).stance("left")
+
+
+@pytest.mark.parametrize("degrees", [-140.0, 0.0, 90.0])
+def test_the_heading_turns_with_the_walk(degrees):
+    walk = normative_gait()
+    assert np.degrees(heading(turned(walk, np.radians(degrees)))) == pytest.approx(degrees, abs=1e-9)
+    back = turned(turned(walk, np.radians(degrees)), -np.radians(degrees))
+    np.testing.assert_allclose(back.base, walk.base, atol=1e-15)
+
+
+def test_a_walk_that_turns_around_or_holds_the_pelvis_has_no_heading():
+    walk = normative_gait()
+    angle = np.linspace(0, 2 * np.pi, len(walk))
+    base = np.tile(np.eye(4), (len(walk), 1, 1))
+    base[:, :2, :2] = np.moveaxis([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]], 2, 0)
+    assert heading(replace(walk, base=base)) is None
+    assert heading(replace(walk, base=None)) is None

@@ -9,6 +9,7 @@ import pytest
 from exo_pin import viewer
 from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
 from exo_pin.viewer.actor import flat_poses
@@ -155,3 +156,11 @@ def test_flattened_poses_keep_the_rotation_and_never_jump(rng):
     back = np.array([pin.XYZQUATToSE3(row).homogeneous for row in rows])
     assert np.abs(back - T).max() < 1e-12
     assert np.abs(np.diff(rows[:, 3:], axis=0)).max() < 0.1
+
+
+@pytest.mark.parametrize("degrees", [90.0, -150.0])
+def test_a_walk_along_another_axis_of_its_laboratory_is_turned_to_the_cameras(robot, gait, scene, degrees):
+    across = viewer.scene(robot, turned(gait, np.radians(degrees)))
+    assert np.abs(across.arrays["base"] - scene.arrays["base"]).max() < 1e-6
+    assert any("Turned about the vertical" in note for note in across.facts.notes)
+    assert not any("Turned about the vertical" in note for note in scene.facts.notes)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from exo_pin import crosscheck
 from exo_pin.gait import Gait, Torques
+from exo_pin.gait.heading import heading, turned
 from exo_pin.report import actuators, checks, facts, feet
 from exo_pin.report.angles import curves
 from exo_pin.report.blocks import Document, Player, Section, Tiles, Words
-from exo_pin.report.heading import ahead
 from exo_pin.report.mass import mass
 from exo_pin.report.motion import motion
 from exo_pin.report.ranges import ranges
@@ -63,7 +65,7 @@ def walk(
         GaitError: The torques belong to another time.
     """
     about = about or About()
-    gait, forward = ahead(gait)
+    gait, forward = _ahead(gait)
     verdict = crosscheck.check(robot, gait)
     rates = motion(robot, gait, cutoff)
     sections = [
@@ -85,6 +87,15 @@ def walk(
     ]
     under = [f"{name}: {words}" for name, words in (("walk", about.what), ("who", about.who)) if words]
     return Document(about.title, "; ".join([*under, *([about.when] if about.when else [])]), tuple(sections))
+
+
+def _ahead(gait: Gait) -> tuple[Gait, str]:
+    """The walk turned so that it goes along x, and what forward is."""
+    angle = heading(gait)
+    if angle is None:
+        return gait, "the walk's own x axis"
+    how = f"the pelvis's mean heading, {np.degrees(angle) + 0.0:.1f} deg from the walk's own x axis"
+    return turned(gait, -angle), how
 
 
 def _summary(gait: Gait, about: About, verdict: crosscheck.Check) -> Section:

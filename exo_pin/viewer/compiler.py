@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import degrees, radians
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import FEET, SIDES
 from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
+from exo_pin.gait.heading import heading, turned
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
@@ -26,6 +28,7 @@ from exo_pin.viewer.world import ROOT, boxes, mounts, world
 
 Array = NDArray[np.float64]
 
+_ASKEW = radians(15)  # a smaller heading is left as recorded: the cameras forgive it
 _BACKPACK = 0.34  # ends this far above the hips [m]
 
 
@@ -79,6 +82,7 @@ def scene(
             notes=notes,
             speed=speed,
         )
+    gait, faced = _facing(gait)
     shown = motion(robot, gait, support)
     exo = linkage(robot.urdf, f"{ROOT}/exo")
     actors = [exoskeleton(robot, shown, exo)]
@@ -101,7 +105,7 @@ def scene(
         tabs=curves.of_gait(robot, gait, reference, torques),
         reference="" if reference is None else reference_title,
         top=top,
-        notes=(*_notes(exo, actors), *curves.notes(torques)),
+        notes=(*faced, *_notes(exo, actors), *curves.notes(torques)),
     )
     return _compiled(play, title, notes, speed)
 
@@ -126,6 +130,15 @@ def retargeted(
     """
     play = humanoid(walk, support, compare, compare_title)
     return _compiled(play, title or f"{walk.target.title or walk.target.name} gait", notes, speed)
+
+
+def _facing(gait: Gait) -> tuple[Gait, list[str]]:
+    """The walk turned to where the cameras' left and front are, if its laboratory's axes are others."""
+    angle = heading(gait)
+    if angle is None or abs(angle) < _ASKEW:
+        return gait, []
+    how = f"Turned about the vertical by {-degrees(angle):.0f} degrees, so that it goes along the room's x axis."
+    return turned(gait, -angle), [how]
 
 
 def _compiled(play: Play, title: str, notes: Iterable[str], speed: float) -> Scene:
