@@ -137,7 +137,7 @@ def _facing(gait: Gait) -> tuple[Gait, list[str]]:
     angle = heading(gait)
     if angle is None or abs(angle) < _ASKEW:
         return gait, []
-    how = f"Turned about the vertical by {-degrees(angle):.0f} degrees, so that it goes along the room's x axis."
+    how = f"Turned about the vertical by {-degrees(angle):.0f} degrees, so that it goes along the room's x."
     return turned(gait, -angle), [how]
 
 
