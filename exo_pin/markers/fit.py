@@ -35,10 +35,10 @@ STEP = 0.02
 BENT = 0.2
 """Knees at the start of the search [rad]: a straight leg hides which way it bends."""
 
-FAR = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=16)
-"""Markers are never met exactly: no restarts, and an end. On recordings 12 steps leave 1e-12 m of the RMS."""
+FAR = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=12)
+"""Markers are never met exactly: no restarts, and an end. On recordings 8 steps leave 1e-12 m of the RMS."""
 
-NEAR = dataclasses.replace(FAR, max_iterations=8)
+NEAR = dataclasses.replace(FAR, max_iterations=6)
 """The same where the answer for all but the same body is known."""
 
 HUMAN = {f"{s}_{m}": (np.radians(a), np.radians(b)) for s in SIDES for m, (a, b) in RANGES.items()}
