@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import os
 import signal
@@ -16,7 +15,7 @@ import pytest
 from tornado.websocket import websocket_connect
 
 from exo_pin import cache, viewer
-from exo_pin.cli import recent, replay
+from exo_pin.cli import recent
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.viewer.bundle import bundle
@@ -24,19 +23,17 @@ from exo_pin.viewer.bundle import bundle
 PATIENCE = 30.0  # [s]: what a busy machine may take
 
 
-def arguments(*words):
-    parser = argparse.ArgumentParser()
-    replay.configure(parser)
-    return parser.parse_args(words)
+def words(*more):
+    return ["replay", "--no-open", *more]
 
 
 @contextmanager
-def replaying(folder, *words):
+def replaying(folder, *more):
     """A running `exo-pin replay`; its temporary files and its cache are in the folder."""
     for name in ("tmp", "cache"):
         (folder / name).mkdir(exist_ok=True)
     environment = os.environ | {"TMPDIR": str(folder / "tmp"), cache.VARIABLE: str(folder / "cache")}
-    command = [sys.executable, "-m", "exo_pin", "replay", "--no-open", *words]
+    command = [sys.executable, "-m", "exo_pin", *words(*more)]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(command, text=True, env=environment, **pipes) as process:
         try:
@@ -80,26 +77,39 @@ def free_port():
 
 def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, monkeypatch, free_port):
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
+    mine = ("--port", str(free_port), "--no-wearer")
     older = bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
-    recent.keep(arguments("--no-wearer"), older)
-    with replaying(tmp_path, "--port", str(free_port), "--no-wearer") as process:
+    recent.keep(words(*mine), older)
+    with replaying(tmp_path, *mine) as process:
         first, second = first_messages(free_port, 2)
         assert first == b"\0" + older
         assert second[1:] != older
         said(process)
-    assert recent.recall(arguments("--no-wearer")) == second[1:]
+    assert recent.recall(words(*mine)) == second[1:]
 
 
-def test_other_arguments_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
+def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
     body = tmp_path / "body.toml"
     body.write_text("stature = 1.7\n")
-    recent.keep(arguments("--body", str(body)), b"picture")
-    assert recent.recall(arguments("--body", str(body))) == b"picture"
-    assert recent.recall(arguments("--body", str(body), "--port", "80", "--no-open")) == b"picture"
-    assert recent.recall(arguments("--body", str(body), "slow")) is None
+    for given in (["--body", str(body)], [f"--body={body}"]):
+        recent.keep(words(*given), b"picture")
+        assert recent.recall(words(*given)) == b"picture"
+        assert recent.recall(words(*given, "slow")) is None
     body.write_text("stature = 1.71\n")
-    assert recent.recall(arguments("--body", str(body))) is None
+    assert recent.recall(words("--body", str(body))) is None
+    assert recent.recall(words(f"--body={body}")) is None
+
+
+def test_the_last_picture_needs_neither_numpy_nor_pinocchio(tmp_path):
+    code = (
+        "import sys; from exo_pin.cli import recent; recent.keep(['replay', '--port=0', '--no-open'], b'x'); "
+        "s = recent.serve(['replay', '--port=0', '--no-open']); s.close(); "
+        "bad = {'numpy', 'pinocchio', 'xacro'} & set(sys.modules); sys.exit(str(bad) if bad else 0)"
+    )
+    environment = os.environ | {cache.VARIABLE: str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, env=environment, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_taken_port_and_an_open_door_are_said_and_nothing_is_left(tmp_path):

@@ -61,7 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             if not Path(words[0]).suffix and not Path(words[0]).exists():
                 raise UnknownNameError("command or file", words[0], COMMANDS)
             words.insert(0, "replay")
-        args = _parser(words).parse_args(words)
+        args = _parser(words).parse_args(words, _before(words))
         if args.command is None:
             _parser(words).print_help()
             return 0
@@ -75,6 +75,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     return code
+
+
+def _before(words: Sequence[str]) -> argparse.Namespace:
+    """What is done before the words are understood, which takes NumPy: `replay` shows its last picture."""
+    server = _module("recent").serve(words) if words[:1] == ["replay"] else None
+    return argparse.Namespace(words=words, server=server)
 
 
 def _parser(words: Sequence[str]) -> argparse.ArgumentParser:

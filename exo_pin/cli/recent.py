@@ -1,36 +1,81 @@
-"""What `replay` made of the same arguments last time: shown at once, until this run's own is there."""
+"""What `replay` showed for the same command line last time: served again at once, before NumPy is loaded.
+
+It is replaced by this run's own picture, unless that is the same.
+"""
 
 from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterable, Iterator
+import sys
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from exo_pin import cache
+
+if TYPE_CHECKING:
+    from exo_pin.viewer import Server
 
 _KIND = "scene"
 _CODE = {".py", ".xacro", ".js", ".css", ".html"}
 """Files of the package that an older picture may not fit."""
-_ELSEWHERE = {"port", "host", "no_open", "html", "command"}
-"""Arguments that do not change the picture."""
 
 
-def recall(args: argparse.Namespace) -> bytes | None:
-    """The packed scene of the last run with these arguments, files and code, or None."""
-    return cache.recall(_KIND, _name(args))
+def serve(words: Sequence[str]) -> Server | None:
+    """A server that shows last time's picture, or None: there is none, or none is wanted.
+
+    Args:
+        words: The command line behind `exo-pin`.
+    """
+    packed = recall(words)
+    if packed is None:
+        return None
+    from exo_pin import viewer
+
+    args, _ = _address().parse_known_args(words)  # no surprises: these words have been understood before
+    opens = not args.no_open and has_display()
+    server = viewer.serve(host=args.host, port=args.port, open_browser=opens)
+    server.preview(packed)
+    return server
 
 
-def keep(args: argparse.Namespace, packed: bytes) -> None:
-    """Keep a packed scene for the next run."""
-    cache.keep(_KIND, _name(args), packed)
+def add_address(parser: argparse.ArgumentParser) -> None:
+    """Where the page is to be."""
+    parser.add_argument(
+        "--port", type=int, default=7000, help="port of the page, or the next free one (default: 7000)"
+    )
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="address to listen on (default: this machine only)"
+    )
+    parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
 
 
-def _name(args: argparse.Namespace) -> str:
-    given = {name: value for name, value in sorted(vars(args).items()) if name not in _ELSEWHERE}
-    files = (word for value in given.values() for word in (value if isinstance(value, list) else [value]))
+def has_display() -> bool:
+    """Whether this machine can show a browser."""
+    return sys.platform == "darwin" or any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
+
+
+def recall(words: Sequence[str]) -> bytes | None:
+    """The packed scene that was kept for these words, files and code, or None."""
+    return cache.recall(_KIND, _name(words))
+
+
+def keep(words: Sequence[str], packed: bytes) -> None:
+    """Keep a packed scene for the next run with these words."""
+    cache.keep(_KIND, _name(words), packed)
+
+
+def _address() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(add_help=False)
+    add_address(parser)
+    return parser
+
+
+def _name(words: Sequence[str]) -> str:
+    files = (part for word in words for part in (word, word.partition("=")[2]) if part)
     code = (path for path in sorted(Path(cache.__file__).parent.rglob("*")) if path.suffix in _CODE)
-    return cache.key((repr(given), *_states(map(str, files)), *_states(map(str, code))))
+    return cache.key((os.getcwd(), *words, *_states(files), *_states(map(str, code))))
 
 
 def _states(paths: Iterable[str]) -> Iterator[str]:

@@ -33,13 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="FILE", help="write one offline page instead of opening the browser"
     )
-    parser.add_argument(
-        "--port", type=int, default=7000, help="port of the page, or the next free one (default: 7000)"
-    )
-    parser.add_argument(
-        "--host", default="127.0.0.1", help="address to listen on (default: this machine only)"
-    )
-    parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
+    recent.add_address(parser)
     walk.add(parser)
 
 
@@ -62,24 +56,25 @@ def _serve(args: argparse.Namespace) -> int:
     import signal
     import threading
 
-    from exo_pin import viewer
-
     for number in (signal.SIGINT, signal.SIGTERM):  # both, also where a shell's `&` has switched Ctrl-C off
         signal.signal(number, signal.default_int_handler)
-    last = recent.recall(args)
-    given = None if last else walk.read(args)  # what is wrong with the input is said before a browser opens
-    opens = not args.no_open and _display()
     try:
-        with viewer.serve(host=args.host, port=args.port, open_browser=opens) as server:
-            if last:
-                server.preview(last)
+        given = None if args.server else walk.read(args)  # bad input is said before a browser opens
+        with args.server or _server(args) as server:
             scene = walk.scene(args, *(given or walk.read(args)))  # the browser opens while this is computed
-            recent.keep(args, server.show(scene))
+            recent.keep(args.words, server.show(scene))
             _say(args, server)
             threading.Event().wait()
     except KeyboardInterrupt:
         pass
     return 0
+
+
+def _server(args: argparse.Namespace) -> Server:
+    from exo_pin import viewer
+
+    opens = not args.no_open and recent.has_display()
+    return viewer.serve(host=args.host, port=args.port, open_browser=opens)
 
 
 def _say(args: argparse.Namespace, server: Server) -> None:
@@ -89,12 +84,5 @@ def _say(args: argparse.Namespace, server: Server) -> None:
     if not server.loopback:
         print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
     print(f"{server.url}   Ctrl-C ends it", flush=True)
-    if not _display():
+    if not recent.has_display():
         print("no display here: open that address, or write a file with --html walk.html", flush=True)
-
-
-def _display() -> bool:
-    """Whether this machine can show a browser."""
-    import os
-
-    return sys.platform == "darwin" or any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
