@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.compare import Comparison, Loss, Walk
+from exo_pin.compare.loss import heading
 from exo_pin.report import palette, panels, skeleton, svg
 from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
@@ -127,8 +128,7 @@ def centre_of_mass(compared: Comparison) -> tuple[Drawing, ...]:
 
 def _axes(walk: Walk) -> Array:
     """Forward, left and up (3, 3) in the world, by the mean heading of the pelvis."""
-    ahead = walk.base[:, :2, 0].mean(axis=0)
-    c, s = ahead / np.linalg.norm(ahead)
+    c, s = heading(walk)
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 

@@ -37,14 +37,24 @@ def feet(compared: Comparison) -> Section:
         Table(columns, rows, "Errors of the feet, both feet over the whole walk"),
     ]
     if compared.walk.gait.events:
-        cells = {
-            loss.device.name: [1e3 * value for value in loss.by_phase.values()] for loss in compared.best
-        }
-        phases = heat(
-            "phases", "Sole error by phase of the foot's cycle, rms [mm]", list(PHASES), cells, width=760
-        )
-        blocks.append(Figure((phases,), "Phases: Perry 1992, told by heel strikes and toe-offs.", columns=1))
+        blocks.append(_phases(compared))
     return Section("Feet: position and orientation", tuple(blocks))
+
+
+def _phases(compared: Comparison) -> Figure:
+    """Errors of sole, foot's position and foot's orientation by phase of the cycle."""
+    kinds = (
+        ("sole_error_by_phase_mm", "Sole error, rms [mm]"),
+        ("position_error_by_phase_mm", "Foot, error of position, rms [mm]"),
+        ("rotation_error_by_phase_deg", "Foot, error of orientation, rms [deg]"),
+    )
+    drawings = []
+    for name, title in kinds:
+        found = {loss.device.name: loss.facts()[name].values() for loss in compared.best}
+        cells = {device: [np.nan if x is None else x for x in values] for device, values in found.items()}
+        drawings.append(heat(name, title, [phase.replace("pre-", "pre- ") for phase in PHASES], cells))
+    caption = "By phase of the foot's own cycle (Perry 1992), told by its heel strikes and toe-offs."
+    return Figure(tuple(drawings), caption, columns=2)
 
 
 def steps(compared: Comparison) -> Section:
