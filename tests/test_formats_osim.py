@@ -191,6 +191,17 @@ def test_the_models_knee_tells_its_own_sign(model, tmp_path):
     assert np.degrees(load_gait(path, model=model, preset="opensim-gait2392").q[0, 3]) == pytest.approx(60)
 
 
+@pytest.mark.parametrize(("turn", "sign"), [(np.pi / 2, 1), (-np.pi / 2, -1)])
+def test_an_offset_frame_turns_the_axis_of_its_joint(model, turn, sign):
+    text = osim(leg=LEG | {"knee": ([("knee_angle", X)], LEG["knee"][1])})
+    before, after = text.split('name="knee_r"><socket')
+    old = "<orientation>0.0 0.0 0.0<"
+    model.write_text(f'{before}name="knee_r"><socket{after.replace(old, f"<orientation>0 {turn} 0<", 1)}')
+    signs = by_model(model, COLUMNS).signs
+    assert signs["right_knee_flexion"] == sign  # turned by +90 deg about y, x points to -z: flexion
+    assert "left_knee_flexion" not in signs  # its axis points forward: nobody's knee
+
+
 def test_a_hip_in_another_order_is_converted_through_its_rotation(model, tmp_path, rng):
     odd = LEG | {"hip": ([("hip_rotation", Y), ("hip_adduction", X), ("hip_flexion", Z)], LEG["hip"][1])}
     model.write_text(osim(leg=odd))
