@@ -38,7 +38,7 @@ NEAREST = ik.Dls(tolerance=1e-9, restarts=0, warm_start=False)
 """For legs that cannot reach the attitude: each sample descends once from the copied angles."""
 
 SHRINKING = (1.0, 0.99, 0.98, 0.97, 0.96, 0.95)
-"""Paths are made smaller by up to a twentieth where hips whose axes do not meet cannot reach them."""
+"""Paths are made smaller by up to a twentieth where limits, or hips whose axes do not meet, forbid them."""
 
 LIGHT = 1e-3
 """Weight of the attitude against the place, where not both can be had."""
