@@ -366,9 +366,8 @@ def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
         np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
 
 
-def test_a_walk_along_any_axis_of_the_laboratory_has_the_same_report(robot, recording):
-    across = turned(recording, np.pi / 2)
-    found = [report.walk(robot, walk, normal=None) for walk in (recording, across)]
+def test_a_walk_along_any_axis_of_the_laboratory_has_the_same_report(robot, gait, document):
+    found = document, report.walk(robot, turned(gait, np.pi / 2), normal=None)
     for title in ("Paths of the feet", "Centre of mass"):
         drawings = [
             [
@@ -440,6 +439,22 @@ def test_the_commands_write_their_pages(tmp_path, capsys):
     assert cli.main(["report", "slow", "--who", EVIL, "--no-player", "-o", str(page)]) == 0
     assert "Gait report: slow" in page.read_text()
     assert EVIL not in page.read_text()
+
+
+def test_the_commands_read_torques_and_tables_of_other_laboratories(tmp_path, gait):
+    torques = tmp_path / "torques.csv"
+    torques.write_text("time_s,left_knee_flexion_torque_nm\n0,-20\n2,30\n")
+    page = tmp_path / "r.html"
+    assert cli.main(["report", "free", "--torques", str(torques), "--no-player", "-o", str(page)]) == 0
+    assert "Torques against the actuators" in page.read_text()
+    lab = tmp_path / "lab.csv"
+    rows = np.column_stack([gait.time, np.degrees(gait.q)])
+    header = ",".join(["t", *(f"c{k}" for k in range(12))])
+    np.savetxt(lab, rows, delimiter=",", header=header, comments="")
+    columns = [f"--map=c{k}={joint}" for k, joint in enumerate(JOINTS)]
+    told = ["--gait", str(lab), "--map=t=time", *columns, "--units", "deg"]
+    assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *told]) == 0
+    assert "lab.csv" in (tmp_path / "reproduction.md").read_text()
 
 
 def test_without_a_browser_the_model_is_a_line_drawing_and_that_is_said(tmp_path, capsys, monkeypatch):

@@ -35,12 +35,8 @@ def test_a_picture_has_the_size_that_was_asked_for_and_both_legs(scene):
 
 
 def test_cameras_and_phases_make_other_pictures(scene):
-    shots = {
-        film.picture(scene, **SMALL),
-        film.picture(scene, **SMALL, camera="left"),
-        film.picture(scene, **SMALL, camera="left", phase=0.4),
-    }
-    assert len(shots) == 3
+    early, late = film.pictures(scene, [0, 0.4], **SMALL, camera="left", legend=False)
+    assert len({early, late, film.picture(scene, **SMALL)}) == 3
 
 
 def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
@@ -88,6 +84,8 @@ def test_what_is_out_of_range_is_refused(scene, tmp_path):
     for wrong in ({"phase": 2}, {"size": (5, 5)}):
         with pytest.raises(DescriptionError):
             film.picture(scene, **wrong)
+    with pytest.raises(DescriptionError):
+        film.pictures(scene, [0.5, -0.1])
     for name, fps in (("walk.avi", 10), ("walk.gif", 0)):
         with pytest.raises(DescriptionError):
             film.film(scene, tmp_path / name, fps=fps)
