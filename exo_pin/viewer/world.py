@@ -79,8 +79,9 @@ def world(gait: Gait, shown: Motion, feet: Sequence[Mount]) -> tuple[list[Comman
 
 def boxes(shown: Motion, above_hips: float) -> dict[str, Box]:
     """What the cameras frame: the whole figure up to a height above the hips [m], and the feet."""
-    y, z = float(shown.base[: 1 if shown.support.overground else None, 1, 3].mean()), float(shown.base[0, 2, 3])
-    here = shown.corners[: 1 if shown.support.overground else len(shown.corners), :, 0]
+    framed = slice(1 if shown.support.overground else None)  # over ground the cameras go along
+    y, z = float(shown.base[framed, 1, 3].mean()), float(shown.base[0, 2, 3])
+    here = shown.corners[framed, :, 0]
     low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
     bottom, top = (0.0 if shown.support.overground else -furniture.DECK), z + above_hips
     middle = (low + high) / 2
