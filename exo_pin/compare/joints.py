@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import FEET, MOVEMENTS, Body
-from exo_pin.compare.motion import Walk, corners, sole_targets, walk
+from exo_pin.compare.motion import BETTER, SWEEPS, Walk, corners, sole_targets, walk
 from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
 from exo_pin.ik.batch_limb import settle
@@ -21,6 +22,8 @@ Array = npt.NDArray[np.float64]
 
 SAMPLES = 25
 """Samples of a periodic gait that the study looks at."""
+
+_WORTH_IT = 1e-6  # a choice whose loss falls by less is not asked again [m]
 
 Subset = frozenset[str]
 Progress = Callable[[Iterable[int]], Iterable[int]]
@@ -89,8 +92,8 @@ def worth(gait: Gait, body: Body | None = None, *, progress: Progress = iter) ->
     """Try every choice of movements on a walk.
 
     A locked joint is one whose limits are both zero, so that the samples of all choices of the same size are
-    solved together. Each starts from the plain copy and from what the best choice with one movement less
-    reached, and keeps the better answer: a further joint never costs.
+    solved together. Each starts from the plain copy, from what the best choice with one movement less
+    reached, and from its neighbours' answers, and keeps the best: a further joint never costs.
 
     Args:
         gait: The walk; a periodic one is taken at `SAMPLES` samples.
@@ -101,12 +104,10 @@ def worth(gait: Gait, body: Body | None = None, *, progress: Progress = iter) ->
     found: dict[Subset, _Found] = {}
     for count in progress(range(len(MOVEMENTS) + 1)):
         choices = [frozenset(chosen) for chosen in combinations(MOVEMENTS, count)]
-        best = _settled(recorded, choices, [_copy(recorded)] * len(choices))
+        starts = [[_copy(recorded)] * len(choices)]
         if count:
-            before = [min((found[c - {m}] for m in c), key=lambda f: f.loss).q for c in choices]
-            again = _settled(recorded, choices, before)
-            best = [_better(*pair) for pair in zip(best, again, strict=True)]
-        found.update(zip(choices, best, strict=True))
+            starts.append([min((found[c - {m}] for m in c), key=lambda f: f.loss).q for c in choices])
+        found.update(zip(choices, _agreed(recorded, choices, starts), strict=True))
     return Worth(recorded, {chosen: result.loss for chosen, result in found.items()})
 
 
@@ -119,6 +120,23 @@ class _Found(NamedTuple):
     @property
     def loss(self) -> float:
         return float(np.sqrt(self.squares.mean()))
+
+
+def _agreed(recorded: Walk, choices: Sequence[Subset], starts: Iterable[Sequence[Array]]) -> list[_Found]:
+    """The best of all starts, which no neighbour's answer, as another start, improves."""
+    tried = [_settled(recorded, choices, start) for start in starts]
+    best = [reduce(_better, some) for some in zip(*tried, strict=True)]
+    busy = list(range(len(choices)))
+    for _ in range(SWEEPS):
+        before = [found.loss for found in best]
+        for shift in (1, -1):
+            seeds = [np.roll(best[k].q, shift, axis=0) for k in busy]
+            for k, again in zip(busy, _settled(recorded, [choices[k] for k in busy], seeds), strict=True):
+                best[k] = _better(best[k], again)
+        busy = [k for k in busy if best[k].loss < before[k] - _WORTH_IT]
+        if not busy:
+            break
+    return best
 
 
 def _settled(recorded: Walk, choices: Sequence[Subset], starts: Sequence[Array]) -> list[_Found]:
@@ -135,7 +153,7 @@ def _settled(recorded: Walk, choices: Sequence[Subset], starts: Sequence[Array])
 
 
 def _better(one: _Found, other: _Found) -> _Found:
-    first = one.squares <= other.squares
+    first = one.squares <= other.squares + BETTER
     return _Found(np.where(first[:, None], one.q, other.q), np.where(first, one.squares, other.squares))
 
 

@@ -10,6 +10,7 @@ taken that keeps its speeds, too.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -30,7 +31,13 @@ from exo_pin.robot import Robot, load_robot
 Array = npt.NDArray[np.float64]
 
 SETTINGS = ik.Dls(tolerance=1e-10, restarts=0, warm_start=False)
-"""Every sample starts from the plain copy and descends once: what is out of reach stays so from any start."""
+"""Every sample starts from the plain copy, then from its neighbours' answers; no other starts are tried."""
+
+SWEEPS = 10
+"""At most so many times through all samples, each asking its neighbours."""
+
+BETTER = 1e-10
+"""A squared error that falls by less does so by rounding [m^2]."""
 
 CONDITIONS = {"pelvis": ("recorded", "device"), "passive": ("held", "released")}
 """What may be granted to a device, by name."""
@@ -140,9 +147,29 @@ def best(
     asked = _asked(recorded, base)
     start = _copy(recorded, robot, asked)
     targets = sole_targets(robot, recorded.corners)
-    q = ik.track(robot, targets, start, base=base, settings=settings).q
+
+    def solved(seed: Array) -> tuple[Array, Array]:
+        q = ik.track(robot, targets, seed, base=base, settings=settings).q
+        missed = corners(robot, poses(robot, q, FEET, base=base)) - recorded.corners
+        return q, (missed**2).sum(axis=(1, 2, 3))
+
+    q = _agreed(solved, start)
     q = paced(robot, targets, q, pace(recorded.gait, robot), base=base)
     return _motion(recorded, robot, q, base, asked)
+
+
+def _agreed(solved: Callable[[Array], tuple[Array, Array]], start: Array) -> Array:
+    """Answers that no neighbour's answer, as another start, improves: fewer samples stay in poor minima."""
+    q, cost = solved(start)
+    for _ in range(SWEEPS):
+        before = cost
+        for shift in (1, -1):
+            other, price = solved(np.roll(q, shift, axis=0))
+            better = price < cost - BETTER
+            q, cost = np.where(better[:, None], other, q), np.where(better, price, cost)
+        if np.array_equal(cost, before):
+            break
+    return q
 
 
 def pace(gait: Gait, robot: Robot) -> Array:
