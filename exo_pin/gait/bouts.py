@@ -104,9 +104,16 @@ def _kept(events: list[Event], steps: list[Step], good: list[Step]) -> tuple[Eve
     usual = float(np.median([step.end - step.strike for step in good]))
     sure = {(step.side, t) for step in good for t in (step.strike, step.off, step.end)}
     start, end = min(step.strike for step in good), max(step.end for step in good)
+    ends = {
+        side: [t for step in steps if step.side == side for t in (step.strike, step.end)] for side in SIDES
+    }
+    spans = {
+        side: (min(times), max(times)) for side, times in ends.items() if times
+    }  # steps follow each other
 
     def belongs(event: Event) -> bool:
-        touches = any(step.side == event.side and step.strike <= event.time <= step.end for step in steps)
+        first, last = spans.get(event.side, (end, start))
+        touches = first <= event.time <= last
         near = start - NEAR * usual <= event.time <= end + NEAR * usual
         return (event.side, event.time) in sure or (near and not touches)
 

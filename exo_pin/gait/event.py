@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -46,6 +47,11 @@ class Event:
             if value not in known:
                 choices = " or ".join(map(repr, known))
                 raise GaitError(f"event at {self.time:g} s: {what} is {value!r}, expected {choices}")
+
+
+def between(times: Sequence[float], start: float, end: float) -> Sequence[float]:
+    """Those of the sorted times that lie between two others, which do not count."""
+    return times[bisect_right(times, start) : bisect_left(times, end)]
 
 
 def stance(

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.checks import check_time, frozen
-from exo_pin.gait.event import Event
+from exo_pin.gait.event import Event, between
 from exo_pin.gait.strides import ROUNDING, Stride
 
 Array = NDArray[np.float64]
@@ -79,7 +79,7 @@ def spatiotemporal(
     check_time(t, periodic=False)
     if p.ndim != 3 or p.shape[:2] != (len(t), 2) or p.shape[2] not in (2, 3):
         raise GaitError(f"heels have shape {p.shape}, expected ({len(t)}, 2, 3)")
-    walk = _Walk(t, p[:, :, :2], sorted(events, key=lambda event: event.time))
+    walk = _Walk(t, p, events)
     if spans is None:
         spans = [Stride(side, *ab) for side in SIDES for ab in pairwise(walk.times("heel_strike", side))]
     if not spans:
@@ -100,19 +100,24 @@ def spatiotemporal(
     return out | _symmetry({name: np.asarray(values) for name, (_, values) in measures.items()})
 
 
-class _Walk(NamedTuple):
-    time: Array
-    heels: Array
-    events: Sequence[Event]
+class _Walk:
+    """Heels and sorted events, ready to be asked often."""
 
-    def times(self, kind: str, side: str) -> list[float]:
+    def __init__(self, time: Array, heels: Array, events: Iterable[Event]) -> None:
+        self.time = time
+        self.events = sorted(events, key=lambda event: event.time)
+        self._paths = {side: [heels[:, k, axis].copy() for axis in range(2)] for k, side in enumerate(SIDES)}
+        self._times: dict[tuple[str, str], list[float]] = {}
+        for event in self.events:
+            self._times.setdefault((event.kind, event.side), []).append(event.time)
+
+    def times(self, kind: str, side: str) -> Sequence[float]:
         """When the foot does that."""
-        return [event.time for event in self.events if (event.kind, event.side) == (kind, side)]
+        return self._times.get((kind, side), [])
 
     def at(self, side: str, t: float) -> Array:
         """Where the heel is, `(2,)`."""
-        path = self.heels[:, SIDES.index(side)]
-        return np.array([np.interp(t, self.time, path[:, k]) for k in range(2)])
+        return np.array([np.interp(t, self.time, path) for path in self._paths[side]])
 
 
 def _path(walk: _Walk, span: Stride, ground: Array) -> Array:
@@ -153,8 +158,10 @@ def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) ->
     lengths: dict[str, list[float]] = {side: [] for side in SIDES}
     times: dict[str, list[float]] = {side: [] for side in SIDES}
     widths = []
+    begins = {(span.side, span.start): span for span in spans}
+    ends = {(span.side, span.end): span for span in spans}
     for a, b in pairwise(strikes):
-        around = [s for s in spans if s.start <= a.time and b.time <= s.end and s.side in (a.side, b.side)]
+        around = [span for span in (begins.get((a.side, a.time)), ends.get((b.side, b.time))) if span]
         if a.side == b.side or not around or a.time > until * (1 - ROUNDING):
             continue
         course = sum((_path(walk, span, ground) for span in around), np.zeros(2))
@@ -175,15 +182,15 @@ def _phases(walk: _Walk, spans: Sequence[Stride]) -> dict[str, Measure]:
     """Stance, swing and double support in per cent of the stride."""
     shares: dict[str, list[float]] = {}
     for side, a, b, _ in spans:
-        offs = [t for t in walk.times("toe_off", side) if a < t < b]
+        offs = between(walk.times("toe_off", side), a, b)
         if len(offs) != 1:
             continue
         stance = 100 * (offs[0] - a) / (b - a)
         shares.setdefault(f"{side}_stance", []).append(stance)
         shares.setdefault(f"{side}_swing", []).append(100 - stance)
         other = SIDES[1 - SIDES.index(side)]
-        ends = [t for t in walk.times("toe_off", other) if a < t < offs[0]]
-        starts = [t for t in walk.times("heel_strike", other) if a < t < offs[0]]
+        ends = between(walk.times("toe_off", other), a, offs[0])
+        starts = between(walk.times("heel_strike", other), a, offs[0])
         if len(ends) == len(starts) == 1:
             both = (ends[0] - a) + (offs[0] - starts[0])
             shares.setdefault("double_support", []).append(100 * both / (b - a))

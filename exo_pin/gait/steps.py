@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
-from exo_pin.gait.event import Event
+from exo_pin.gait.event import EVENT_KINDS, Event, between
 
 Array = NDArray[np.float64]
 
@@ -73,12 +74,13 @@ class Step(NamedTuple):
 
 def steps_of(feet: Feet, first: Array, events: list[Event], side: str) -> list[Step]:
     """Every span between two strikes of a foot, and what speaks against it."""
-    mine = [event for event in events if event.side == side]
-    strikes = [event.time for event in mine if event.kind == "heel_strike"]
-    other = [event for event in events if event.side != side]
+    mine: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}
+    other: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}
+    for event in events:
+        (mine if event.side == side else other)[event.kind].append(event.time)
     steps = []
-    for a, b in pairwise(strikes):
-        offs = [event.time for event in mine if event.kind == "toe_off" and a < event.time < b]
+    for a, b in pairwise(mine["heel_strike"]):
+        offs = between(mine["toe_off"], a, b)
         why = "heel strikes and toe-offs of one foot do not take turns" if len(offs) != 1 else ""
         why = why or _order(other, a, b) or _against(feet, first, SIDES.index(side), (a, offs[0], b))
         steps.append(Step(side, a, offs[0] if offs else a, b, why))
@@ -87,30 +89,30 @@ def steps_of(feet: Feet, first: Array, events: list[Event], side: str) -> list[S
 
 def agreed(steps: list[Step]) -> list[Step]:
     """The same; a step in which a step of the other foot begins or ends that is none, is none either."""
+    doubts: dict[str, dict[float, str]] = {side: {} for side in SIDES}
+    for step in steps:
+        for t in (step.strike, step.end):
+            doubts[step.side][t] = step.why or doubts[step.side].get(t, "")
+    times = {side: sorted(known) for side, known in doubts.items()}
 
     def partner(step: Step) -> str:
-        inside = (
-            other.why
-            for other in steps
-            if other.side != step.side
-            and (step.strike < other.strike < step.end or step.strike < other.end < step.end)
-        )
-        return next(filter(None, inside), "")
+        other = SIDES[1 - SIDES.index(step.side)]
+        inside = between(times[other], step.strike, step.end)
+        return next(filter(None, (doubts[other][t] for t in inside)), "")
 
     return [step if step.why else step._replace(why=partner(step)) for step in steps]
 
 
-def _order(other: list[Event], a: float, b: float) -> str:
+def _order(other: Mapping[str, Sequence[float]], a: float, b: float) -> str:
     """What in the other foot's events speaks against a stride from a to b."""
     if b - a < QUICKEST:
         return f"the feet swing to and fro in less than {QUICKEST:g} s: noise?"
-    strikes = [event.time for event in other if event.kind == "heel_strike" and a < event.time < b]
+    strikes = between(other["heel_strike"], a, b)
     if len(strikes) != 1:
         return "the left and the right foot do not take turns"
     if not APART < (strikes[0] - a) / (b - a) < 1 - APART:
         return "both feet move forward together; in a walk they take turns"
-    early = a - EARLY * (b - a)
-    if not any(event.kind == "toe_off" and early < event.time < strikes[0] for event in other):
+    if not between(other["toe_off"], a - EARLY * (b - a), strikes[0]):
         return "one foot does not leave the ground while the other one stands"
     return ""
 
@@ -118,6 +120,9 @@ def _order(other: list[Event], a: float, b: float) -> str:
 def _against(feet: Feet, first: Array, k: int, moments: tuple[float, float, float]) -> str:
     """What in the path of foot k speaks against a stride with these strike, toe-off and next strike."""
     strike, off, end = moments
+    begin, stop = np.searchsorted(feet.time, [strike, end])
+    rows = slice(max(begin - 1, 0), stop + 1)  # long recordings have thousands of strides
+    first, feet = first[rows], Feet(*(part[rows] for part in feet))
     high = in_the_air(feet, first[:, k, 2], strike, off, end)
     if high:
         return high

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.gait.event import between
 from exo_pin.gait.walk import Gait
 
 Array = NDArray[np.float64]
@@ -21,6 +23,9 @@ LONGEST = 3.0
 
 TURNING = np.radians(30.0)
 """A pelvis that turns further in a stride [rad] is on a turn, not on a walk: a circle of 2.7 m radius."""
+
+MOST = 0.5
+"""If more than this part of the strides have a toe-off, one without has missed it."""
 
 REST = 0.3
 """Part of the usual stride in which some joint moves, in a walk of any speed ..."""
@@ -72,13 +77,13 @@ def strides(gait: Gait, side: str) -> tuple[Stride, ...]:
         return ()
     usual = float(np.median([span.duration for span in spans]))
     offs = [event.time for event in mine if event.kind == "toe_off"]
-    lifted = [any(span.start < t < span.end for t in offs) for span in spans]
-    missed = [not lift and np.mean(lifted) > 0.5 for lift in lifted]
-    rest = _still(gait, usual)
-    return tuple(
-        span._replace(why=_why(gait, span, usual, rest) or ("no toe-off in it" if miss else ""))
-        for span, miss in zip(spans, missed, strict=True)
-    )
+    lifted = np.array([bool(between(offs, span.start, span.end)) for span in spans])
+    rest, turns = _still(gait, usual).tolist(), turned(gait, strikes)
+    whys = [
+        _why(span, usual, rest, abs(turn)) or ("" if lift or lifted.mean() <= MOST else "no toe-off in it")
+        for span, turn, lift in zip(spans, turns, lifted, strict=True)
+    ]
+    return tuple(span._replace(why=why) for span, why in zip(spans, whys, strict=True))
 
 
 def unrolled(gait: Gait) -> Gait:
@@ -93,28 +98,27 @@ def unrolled(gait: Gait) -> Gait:
     return Gait(thrice.time[keep], thrice.q[keep], base=base, events=events, source=gait.source)
 
 
-def _why(gait: Gait, span: Stride, usual: float, rest: Array) -> str:
+def _why(span: Stride, usual: float, rest: Sequence[float], turn: float) -> str:
     """Why the span is no stride."""
-    turn = abs(turned(gait, span.start, span.end))
     if turn > TURNING:
         return (
             f"the pelvis turns by {np.degrees(turn):.0f} deg in a stride, more than "
             f"{np.degrees(TURNING):.0f}: turning, not walking straight on"
         )
     window = REST * usual / 2
-    if ((rest > span.start + window) & (rest < span.end - window)).any():
+    if between(rest, span.start + window, span.end - window):
         return "stands still in it"
     if span.duration > LONGEST * usual:
         return f"lasts {span.duration:.2f} s, others {usual:.2f} s: a pause, or a missed heel strike"
     return ""
 
 
-def turned(gait: Gait, start: float, end: float) -> float:
-    """How far the pelvis's level heading turns between two times [rad]."""
+def turned(gait: Gait, times: Sequence[float] | Array) -> Array:
+    """How far the pelvis's level heading turns from each of `(m,)` times to the next, `(m - 1,)` [rad]."""
     if gait.base is None:
-        return 0.0
+        return np.zeros(len(times) - 1)
     yaw = np.unwrap(np.arctan2(gait.base[:, 1, 0], gait.base[:, 0, 0]))
-    return float(np.interp(end, gait.time, yaw) - np.interp(start, gait.time, yaw))
+    return np.diff(np.interp(times, gait.time, yaw))
 
 
 def _still(gait: Gait, usual: float) -> Array:

@@ -96,7 +96,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     try:
         found = walking(feet, periodic=gait.periodic)
     except GaitError as error:
-        turn = abs(turned(gait, gait.time[0], gait.time[-1]))
+        turn = abs(float(turned(gait, gait.time[[0, -1]])[0]))
         hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > TURNED else ""
         raise GaitError(f"{error}{hint}") from error
     _check_strides(dataclasses.replace(gait, events=found))
