@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+import numpy as np
+
 from exo_pin.errors import FormatError
 from exo_pin.formats.markers import Plate
 from exo_pin.formats.pelvis import OURS
@@ -21,11 +23,13 @@ FORCE = re.compile(
 def load_forces(path: str | Path) -> tuple[Plate, ...]:
     """Read the force plates of a .mot or .sto file; OpenSim's axes (y up) become ours (z up).
 
+    A point or moment that is NaN, as many programs write it while nobody stands on the plate, is 0.
+
     Raises:
         FormatError: With file and reason: no storage file, no forces, columns that are missing.
     """
     path = Path(path)
-    table = read_storage(path).table
+    table = read_storage(path, gaps=True).table
     if "time" not in table.names:
         raise FormatError(path, "no column 'time'", line=table.lines[0] - 1)
     groups = _groups(table.names)
@@ -54,5 +58,9 @@ def _plate(table: Table, time: Array, name: str, columns: dict[str, str]) -> Pla
         gone = [what + axis for axis in "xyz" if what + axis not in columns]
         if gone:
             raise FormatError(table.path, f"force plate {name or '1'} has no column for {', '.join(gone)}")
-        parts.append(table.columns([columns[what + axis] for axis in "xyz"]) @ OURS.T)
+        names = [columns[what + axis] for axis in "xyz"]
+        values = table.columns(names)
+        if what == "v":
+            table.refuse(np.isnan(values), names, "expected a finite number")
+        parts.append(np.nan_to_num(values) @ OURS.T)
     return Plate(f"force plate {name}".strip(), time, *parts)

@@ -1,0 +1,33 @@
+"""Force files: gaps where nobody stands are no gaps in the forces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from exo_pin.errors import FormatError
+from exo_pin.formats import load_forces
+
+NAMES = [f"ground_force_{w}{a}" for w in "vp" for a in "xyz"] + [f"ground_torque_{a}" for a in "xyz"]
+
+
+def written(path, rows):
+    lines = ["grf", f"nRows={len(rows)}", "nColumns=10", "endheader", "\t".join(["time", *NAMES])]
+    path.write_text("\n".join([*lines, *("\t".join(map(str, row)) for row in rows), ""]))
+    return path
+
+
+def test_a_point_of_nobody_is_zero(tmp_path):
+    nan = float("nan")
+    path = written(tmp_path / "grf.mot", [[0, *[0] * 3, *[nan] * 6], [0.1, 0, 700, 0, 1, 0, 2, 0, 3, 0]])
+    (plate,) = load_forces(path)
+    assert not plate.point[0].any()
+    assert not plate.moment[0].any()
+    np.testing.assert_array_equal(plate.force[1], [0, 0, 700])  # y up becomes z up
+
+
+def test_a_force_that_is_no_number_is_refused_with_its_line(tmp_path):
+    path = written(tmp_path / "grf.mot", [[0, *[0] * 9], [0.1, "nan", *[0] * 8]])
+    with pytest.raises(FormatError, match="ground_force_vx is nan") as caught:
+        load_forces(path)
+    assert caught.value.line == 7
