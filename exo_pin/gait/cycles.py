@@ -114,19 +114,17 @@ def cycles(gait: Gait, side: str = "left", *, points: int = POINTS) -> Cycles:
     kept = [span for span in spans if not span.why]
     if not kept:
         raise GaitError(f"no gait cycles found: {_why_none(walk, spans, side)}")
-    moments = [np.linspace(span.start, span.end, points) for span in kept]
-    q = [curves.resampled(walk.time, walk.q, at, periodic=False) for at in moments]
+    moments = np.concatenate([np.linspace(span.start, span.end, points) for span in kept])
+    q = curves.resampled(walk.time, walk.q, moments, periodic=False).reshape(len(kept), points, -1)
     base = None
     if walk.base is not None:
-        flat = walk.base.reshape(-1, 16)
-        base = np.array(
-            [_on_the_spot(curves.resampled(walk.time, flat, at, periodic=False)) for at in moments]
-        )
+        flat = curves.resampled(walk.time, walk.base.reshape(-1, 16), moments, periodic=False)
+        base = np.array([_on_the_spot(cycle) for cycle in flat.reshape(len(kept), points, 16)])
     start, duration = (np.array([getattr(span, name) for span in kept]) for name in ("start", "duration"))
     skipped = tuple(span for span in spans if span.why)
     return Cycles(
         side,
-        read_only(np.array(q)),
+        read_only(q),
         read_only(start),
         read_only(duration),
         skipped,
@@ -153,7 +151,7 @@ def _contacts(walk: Gait, spans: Sequence[Stride]) -> dict[tuple[str, str], Arra
     for side in SIDES:
         for kind in EVENT_KINDS:
             times = np.array([e.time for e in walk.events if (e.kind, e.side) == (kind, side)])
-            inside = [(span, times[(times >= span.start) & (times < span.end)]) for span in spans]
+            inside = [(span, times[slice(*np.searchsorted(times, span[1:3]))]) for span in spans]
             phases = [(t[0] - span.start) / span.duration for span, t in inside if len(t) == 1]
             if phases:
                 found[kind, side] = np.array(phases)
