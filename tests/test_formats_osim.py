@@ -343,12 +343,42 @@ def test_the_recordings_model_has_its_hips_and_signs(shared):
     assert 0.001 < moved.max() < 0.005  # this person's hips are not the generic ones
 
 
+def on_a_floor(text):
+    """The same model (version 4) on a floor that tilts and slides."""
+    weight = "<mass>1</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia>"
+    floor = f'<Body name="floor">{weight}</Body>'
+    turns, slides = [("floor_tilt", Z), ("floor_list", X)], [("floor_tx", X)]
+    below = joint("ground_floor", "ground", "floor", turns, slides, place=(0, 0.1, 0), tilt=(0, 0.4, 0))
+    text = text.replace("/ground</socket_parent>", "/bodyset/floor</socket_parent>")
+    text = text.replace('<Body name="pelvis">', f'{floor}<Body name="pelvis">')
+    return text.replace("<JointSet><objects>", f"<JointSet><objects>{below}")
+
+
+def test_joints_between_ground_and_pelvis_follow_each_other(model, tmp_path, angles):
+    model.write_text(on_a_floor(osim()))
+    coordinates = angles | {"floor_tilt": np.full(5, 10.0), "floor_list": np.full(5, -20.0)}
+    coordinates |= {"floor_tx": np.full(5, 0.3), "pelvis_ty": np.full(5, 0.9)}
+    gait = load_gait(motion(tmp_path / "x.mot", coordinates), model=model, preset="opensim-gait2392")
+    floor = about(Y, 0.4) @ about(Z, np.radians(10)) @ about(X, np.radians(-20))
+    for k in range(5):
+        R = floor @ np.linalg.multi_dot(
+            [about(v, np.radians(angles[c][k])) for c, v in (TILT, LIST, ROTATION)]
+        )
+        np.testing.assert_allclose(gait.base[k, :3, :3], OURS @ R @ OURS.T, atol=EXACT)
+        p = [0, 0.1, 0] + about(Y, 0.4) @ [0.3, 0, 0] + floor @ [0, 0.9, 0] + R @ [-0.06, -0.08, 0]
+        np.testing.assert_allclose(gait.base[k, :3, 3], OURS @ p, atol=EXACT)
+
+
 KINDS = {
     "CustomJoint": {},
     "tilted": {"place": (0.1, 0.2, -0.3), "tilt": (0.3, -0.5, 0.7)},
     "FreeJoint": {"kind": "FreeJoint"},
     "BallJoint": {"kind": "BallJoint", "slides": ()},
+    "GimbalJoint": {"kind": "GimbalJoint", "slides": ()},
+    "UniversalJoint": {"kind": "UniversalJoint", "turns": (TILT, LIST), "slides": ()},
     "PlanarJoint": {"kind": "PlanarJoint", "turns": (TILT,), "slides": SLIDES[:2]},
+    "PinJoint": {"kind": "PinJoint", "turns": (TILT,), "slides": ()},
+    "SliderJoint": {"kind": "SliderJoint", "turns": (), "slides": SLIDES[:1]},
 }
 
 
