@@ -203,6 +203,12 @@ def test_the_player_is_embedded_whole_and_fenced_off(page):
     assert "allow-same-origin" not in frame["sandbox"]
 
 
+def test_a_still_takes_the_players_place_on_paper():
+    document = blocks.Document("t", "", (blocks.Section("s", (blocks.Player("<p>", EVIL, b"png"),)),))
+    (image,) = [a for tag, a in Reader(report.html(document)).seen if tag == "img"]
+    assert image == {"class": "paper", "alt": EVIL, "src": "data:image/png;base64,cG5n"}
+
+
 def test_nothing_is_loaded_from_elsewhere(page, paper):
     for text in (page, report.html(paper)):
         reader = Reader(text)

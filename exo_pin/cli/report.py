@@ -24,9 +24,12 @@ _EXAMPLES = """examples:
   exo-pin report walk.mot --normal slow --filter 8 -o report.html
   exo-pin report walk.mot --no-player -o report.html     0.2 MB, for mail and print
 
-The page holds everything and loads nothing; the browser's own "print" makes a PDF of it."""
+The page holds everything and loads nothing; the browser's own "print" makes a PDF of it (with --still, the
+model is on paper too)."""
 
 CUTOFF = 6.0
+_STILL = 0.1  # share of the walk that the picture for paper shows
+_PAPER = (1400, 800)  # its size [px]
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -51,6 +54,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="low-pass of a recording's velocities and accelerations; 0: none (default: 6)",
     )
     parser.add_argument("--no-player", action="store_true", help="leave the 3-D player out")
+    parser.add_argument(
+        "--still", action="store_true", help="a picture in the player's place on paper (needs Chromium)"
+    )
     walk.add(parser)
 
 
@@ -75,13 +81,14 @@ def run(args: argparse.Namespace) -> int:
         when=moment(),
         choices=_choices(args, note),
     )
-    player = "" if args.no_player else _player(args, body, gait)
+    player, still = ("", b"") if args.no_player else _player(args, body, gait)
     with show.busy("reporting"):
         document = report.walk(
             robot,
             gait,
             about=about,
             player=player,
+            still=still,
             normal=None if args.normal == "none" else args.normal,
             cutoff=args.filter or None,
             torques=given,
@@ -92,11 +99,14 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _player(args: argparse.Namespace, body: Body, gait: Gait) -> str:
-    """The offline page as text."""
+def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, bytes]:
+    """The offline page as text, and its picture for paper if one is asked for."""
     from exo_pin import viewer
+    from exo_pin.viewer import film
 
-    return viewer.html(walk.scene(args, body, gait))
+    scene = walk.scene(args, body, gait)
+    still = film.picture(scene, phase=_STILL, size=_PAPER) if args.still else b""
+    return viewer.html(scene), still
 
 
 def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:

@@ -70,10 +70,11 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Player:
-    """A whole HTML page to be shown inside the page, in a frame of its own."""
+    """A whole HTML page in a frame of its own; on paper a PNG, if there is one."""
 
     html: str
     title: str
+    still: bytes = b""
 
 
 Block = Words | Table | Figure | Tiles | Player

@@ -92,10 +92,13 @@ def _tiles(block: Tiles) -> str:
 
 def _player(block: Player) -> str:
     """The player may run its own scripts and save pictures, but it is cut off from this page."""
+    paper = '<p class="paper note">The player is in the file, not on paper.</p>'
+    if block.still:
+        data = base64.b64encode(block.still).decode()
+        paper = f'<img class="paper" alt="{escape(block.title)}" src="data:image/png;base64,{data}">'
     return (
         f'<iframe title="{escape(block.title)}" sandbox="allow-scripts allow-downloads" loading="eager" '
-        f'srcdoc="{escape(block.html)}"></iframe>\n'
-        '<p class="paper note">The player is in the file, not on paper.</p>'
+        f'srcdoc="{escape(block.html)}"></iframe>\n{paper}'
     )
 
 

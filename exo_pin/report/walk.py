@@ -44,6 +44,7 @@ def walk(
     *,
     about: About | None = None,
     player: str = "",
+    still: bytes = b"",
     normal: str | None = "free",
     cutoff: float | None = 6.0,
     torques: Torques | None = None,
@@ -55,6 +56,7 @@ def walk(
         gait: The walk, with its events (without them there is no cycle and no contact).
         about: Who, what, when.
         player: A whole HTML page to embed; empty: none.
+        still: A PNG that takes the player's place on paper.
         normal: Speed of the normative band behind the joint curves; None: no band.
         cutoff: Low-pass of velocities and accelerations of recordings [Hz]; None: no filter. Periodic walks
             are differentiated by their Fourier series and never filtered.
@@ -72,7 +74,7 @@ def walk(
         _summary(gait, about, verdict),
         facts.body(robot),
         facts.device(robot),
-        *([_played(player, about.title)] if player else []),
+        *([_played(player, about.title, still)] if player else []),
         curves(robot, gait, normal),
         ranges(robot, gait),
         actuators.rates(robot, gait, rates),
@@ -115,6 +117,6 @@ def _summary(gait: Gait, about: About, verdict: crosscheck.Check) -> Section:
     return Section("Summary", (Tiles(tiles), Words(f"{words} {kind}")))
 
 
-def _played(player: str, title: str) -> Section:
+def _played(player: str, title: str, still: bytes) -> Section:
     words = "Drag to turn, space to play; it works without a network."
-    return Section("The walk", (Player(player, f"Player: {title}"), Words(words, "note screen")))
+    return Section("The walk", (Player(player, f"Player: {title}", still), Words(words, "note screen")))

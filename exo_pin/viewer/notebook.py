@@ -43,6 +43,6 @@ def view(robot: Robot, gait: Gait, *, height: int = 640, **options: Any) -> View
         robot: The exoskeleton.
         gait: The walk.
         height: Of the frame [px].
-        **options: Further options of `viewer.scene`, e.g. `reference=`.
+        **options: Further options of `viewer.scene`, e.g. `reference=` or `torques=`.
     """
     return View(html(scene(robot, gait, **options)), height)
