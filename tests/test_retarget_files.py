@@ -192,3 +192,25 @@ def test_axes_in_a_plane_are_no_hip():
 def test_directions_have_names_and_back():
     for name in ("x", "-x", "y", "-y", "z", "-z"):
         assert named(direction(name)) == name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (r'<limit[^>]*"\s*/>', "", "does not specify limits"),
+        ('<axis xyz="1 0 0"', '<axis xyz="a b c"', "Malformed axis"),
+        ('<robot name="[^"]*"', "<robot", "No name given"),
+        ("<mesh ", '<mesh scale="1 x 1" ', "cannot be drawn"),
+        ("<mesh ", '<mesh scale="1 1" ', "cannot be drawn"),
+        ('<axis xyz="1 0 0"', '<axis xyz="0 0 0"', "no axis"),
+    ],
+)
+def test_what_is_wrong_in_a_urdf_is_said_in_one_line_and_no_page_is_written(tmp_path, capfd, old, new, said):
+    path, page = tmp_path / "mine.urdf", tmp_path / "mine.html"
+    wrong = re.sub(old, new, text("bolt"))
+    assert wrong != text("bolt")
+    path.write_text(wrong, "utf-8")
+    assert main(["replay", "--robot", str(path), "--html", str(page)]) == 2
+    (error,) = capfd.readouterr().err.splitlines()  # of the process: Pinocchio's parser writes there too
+    assert said in error
+    assert not page.exists()

@@ -116,7 +116,9 @@ def robot_leg(
     ids = [model.getJointId(name) for name in joints]
     axes = np.array([slopes[3:, model.idx_vs[j]] for j in ids])
     if (np.linalg.norm(axes, axis=1) < 0.5).any():
-        raise DescriptionError(f"the leg of {foot} has a sliding joint; joints that turn are accepted")
+        raise DescriptionError(
+            f"the leg of {foot} has a joint that slides or has no axis; joints that turn are accepted"
+        )
     columns = [robot.column(name) for name in joints]
     rows = [robot.joints.index(name) for name in joints]
     T = poses(robot, stand, [foot])[0]

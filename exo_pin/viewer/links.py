@@ -107,13 +107,12 @@ def linkage(urdf: str, root: str, *, paint: Material | None = None, meshes: Mesh
             capsules then, unless other links have their looks and this one never had any.
 
     Raises:
-        DescriptionError: The text is no URDF with one root link.
+        DescriptionError: The text is no URDF with one root link, or a number in it is none.
     """
     try:
-        robot = ET.fromstring(urdf)
-    except ET.ParseError as error:
-        raise DescriptionError(f"the URDF cannot be read: {error}") from error
-    return _Nesting(robot, paint, meshes).below(root)
+        return _Nesting(ET.fromstring(urdf), paint, meshes).below(root)
+    except (ET.ParseError, ValueError, RecursionError) as error:
+        raise DescriptionError(f"the URDF cannot be drawn: {error}") from error
 
 
 def pose(origin: ET.Element | None) -> Array:
@@ -210,7 +209,10 @@ class _Nesting:
         turn = f"{held}/turn"
         axis = joint.find("axis")
         direction = np.array(_numbers(axis.get("xyz", "1 0 0")) if axis is not None else [1.0, 0.0, 0.0])
-        x, y, z = (direction / np.linalg.norm(direction)).tolist()
+        length = float(np.linalg.norm(direction))
+        if not length > 0:
+            raise DescriptionError(f"joint {name!r} of the URDF has no axis")
+        x, y, z = (direction / length).tolist()
         self.turns.append(Turn(name, turn, (x, y, z), kind, _limits(joint)))
         self.link(child, turn)
 

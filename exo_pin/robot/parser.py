@@ -1,0 +1,51 @@
+"""Pinocchio's URDF parser, its complaints in one message instead of lines on the console."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Iterator
+from typing import Any
+
+import pinocchio as pin
+
+from exo_pin.errors import DescriptionError
+
+
+def built(text: str, *root: Any) -> Any:
+    """Pinocchio's model of a URDF's text; `root` is the joint of a floating base, if any.
+
+    Raises:
+        DescriptionError: It is no URDF that Pinocchio accepts; the message says what its parser said first.
+    """
+    said: list[str] = []
+    try:
+        with _heard(said):
+            return pin.buildModelFromXML(text, *root)
+    except (ValueError, RuntimeError) as error:
+        first = re.search(r"Error:\s*(.+)", "".join(said))
+        why = str(error) if first is None else first[1].strip()
+        raise DescriptionError(f"Pinocchio does not accept this URDF: {why}") from None
+
+
+@contextlib.contextmanager
+def _heard(said: list[str]) -> Iterator[None]:
+    """What C++ code writes to the standard error file meanwhile, and nobody else sees."""
+    sys.stderr.flush()
+    try:
+        kept = os.dup(2)
+    except OSError:  # there is none
+        yield
+        return
+    with tempfile.TemporaryFile() as file:
+        os.dup2(file.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            file.seek(0)
+            said.append(file.read().decode(errors="replace"))
