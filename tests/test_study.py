@@ -15,6 +15,7 @@ from exo_pin.devices import Device, both
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.formats import save_gait
 from exo_pin.gait import normative_gait
+from exo_pin.study.work import _in_turns
 
 DEVICES = ("exo12", "hk4")
 RECORDED = (Conditions("recorded"),)
@@ -85,6 +86,14 @@ def test_two_workers_write_the_same_bytes_as_one(tmp_path):
     for jobs in (1, 2):
         study.run(plan(devices=("exo12", "planar5"), conditions=own), tmp_path / f"{jobs}.csv", jobs=jobs)
     assert (tmp_path / "2.csv").read_bytes() == (tmp_path / "1.csv").read_bytes()
+
+
+def test_bodies_take_turns_so_that_no_two_workers_describe_the_same_one_first():
+    cases = plan(("slow", "free", "fast"), (1.5, 1.6, 1.7))
+    assert list(_in_turns(cases, 1)) == cases
+    turns = list(_in_turns(cases, 2))
+    assert [case.body.stature for case in turns] == [1.5, 1.6] * 3 + [1.7] * 3
+    assert set(turns) == set(cases)
 
 
 class Plain(joblib.parallel.ThreadingBackend):

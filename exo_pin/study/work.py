@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, zip_longest
 from pathlib import Path
 
 from exo_pin.errors import DescriptionError, FormatError
@@ -148,17 +148,32 @@ def _draft(
 
 def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
     """The outcomes as they are ready, in any order."""
-    from joblib import Parallel, delayed
+    from joblib import Parallel, delayed, effective_n_jobs
 
-    tasks = [delayed(solve)(case) for case in cases]
-    # The cases of one body in a row go to one worker, which then describes each device only once.
-    together = len({case.gait for case in cases if not case.path}) or 1
+    tasks = [delayed(solve)(case) for case in _in_turns(cases, effective_n_jobs(jobs))]
     try:
-        parallel = Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=together)
+        parallel = Parallel(n_jobs=jobs, return_as="generator_unordered")
     except ValueError:  # a back end that gives back only all at once
-        parallel = Parallel(n_jobs=jobs, batch_size=together)
+        parallel = Parallel(n_jobs=jobs)
         for k in range(0, len(tasks), _AT_ONCE):
             yield from parallel(tasks[k : k + _AT_ONCE])
         return
     with contextlib.closing(parallel(tasks)) as outcomes:  # an interrupted study stops its workers
         yield from outcomes
+
+
+def _in_turns(cases: Sequence[Case], workers: int) -> Iterator[Case]:
+    """The cases with as many bodies in turns as there are workers.
+
+    A device on a body is described by xacro (0.2 s), and the description kept for all workers: so each begins
+    with a body of its own and finds those of the others described.
+    """
+    groups: list[list[Case]] = []
+    for case in cases:
+        if groups and case.body is not None and case.body is groups[-1][0].body:
+            groups[-1].append(case)
+        else:
+            groups.append([case])
+    for k in range(0, len(groups), workers):
+        for turn in zip_longest(*groups[k : k + workers]):
+            yield from (case for case in turn if case is not None)
