@@ -70,6 +70,17 @@ def test_a_trajectory_is_what_ros_expects(tmp_path, walk):
         np.testing.assert_allclose(load_gait(tmp_path / name).time, late.time, atol=NANOSECOND)
 
 
+@pytest.mark.parametrize("around", [("joint_trajectory",), ("trajectory",), ("goal", "trajectory")])
+def test_a_trajectory_inside_another_ros_message_is_read(tmp_path, walk, around):
+    save_gait(walk, tmp_path / "walk.json")
+    message = json.loads((tmp_path / "walk.json").read_text())
+    for key in reversed(around):
+        message = {key: message}
+    path = tmp_path / "goal.yaml"
+    path.write_text(yaml.safe_dump(message))
+    np.testing.assert_allclose(load_gait(path).q, walk.q, atol=ROUND_TRIP)
+
+
 @pytest.mark.parametrize("suffix", [".yaml", ".json"])
 def test_the_pelvis_travels_beside_the_message_and_must_be_whole(tmp_path, walk, suffix):
     path = tmp_path / f"walk{suffix}"

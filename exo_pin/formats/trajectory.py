@@ -22,6 +22,9 @@ REMARK = "# JointTrajectory [rad, rad/s, rad/s^2, s]; positive is what the joint
 START = "start"
 """Note that keeps the first time of a walk whose trajectory, as any, starts at 0; others keep the pelvis."""
 
+WRAPPINGS = ("trajectory", "joint_trajectory")
+"""Fields under which other ROS messages hold a JointTrajectory."""
+
 NOTES = "exo_pin"
 """Key of a JSON file that keeps the notes, which YAML has in comments."""
 
@@ -126,6 +129,7 @@ def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> G
     reading.refuse(
         path, "preset", "units", why="a trajectory is in radians, positive as the joints' names say"
     )
+    message = _inner(message)
     if not isinstance(message, dict) or not {"joint_names", "points"} <= set(message):
         raise FormatError(path, "no JointTrajectory; expected the keys joint_names and points")
     columns = _columns(path, message["joint_names"], reading)
@@ -146,6 +150,14 @@ def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> G
         raise FormatError(path, f"start is {start[0].value[:40]!r}, expected seconds") from None
     base = pelvisnotes.read_base(path, notes, len(time))
     return to_gait(path, time, q[:, columns], base, read(path, notes))
+
+
+def _inner(message: object) -> object:
+    """The JointTrajectory inside a goal of FollowJointTrajectory or a RobotTrajectory, or what was given."""
+    for key in ("goal", *WRAPPINGS):
+        if isinstance(message, dict) and isinstance(message.get(key), dict):
+            message = message[key]
+    return message
 
 
 def _columns(path: Path, names: object, reading: Reading) -> list[int]:
