@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +18,7 @@ from exo_pin.retarget.axes import direction
 from exo_pin.retarget.legs import RobotLeg, robot_leg
 from exo_pin.retarget.targets import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf
+from exo_pin.robot.examples import located
 
 Array = npt.NDArray[np.float64]
 
@@ -118,14 +118,10 @@ def _turn(front: str, up: str) -> Array:
 
 def _packaged(target: Target) -> Path:
     """Where example-robot-data has the target's URDF."""
-    try:
-        files = distribution("example-robot-data").files or []
-    except PackageNotFoundError:
-        raise DescriptionError(f"{target.name} comes with example-robot-data; install it") from None
-    for file in files:
-        if str(file).endswith(f"/{target.file}"):
-            return Path(str(file.locate()))
-    raise DescriptionError(f"example-robot-data has no {target.file}")
+    path = located(str(target.file))
+    if path is None:
+        raise DescriptionError(f"{target.name} needs example-robot-data, which has no {target.file} here")
+    return path
 
 
 def _prepared(target: Target, path: Path) -> str:

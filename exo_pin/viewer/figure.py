@@ -6,13 +6,14 @@ BSD-2-Clause, Gepetto team (LAAS-CNRS). In our axes: x forward, y left, z up.
 from __future__ import annotations
 
 from functools import cache
-from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import ExoPinError
+from exo_pin.robot.examples import located
+from exo_pin.viewer import meshfiles
 from exo_pin.viewer.solids import Solid
 
 Array = NDArray[np.float64]
@@ -22,7 +23,6 @@ GRAIN = 0.045
 """Meshes are thinned to cells of this share of their largest side."""
 
 _HOME = "human_description/robots/human.urdf"
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])  # binary STL
 
 
 def part(name: str, scale: Triple, offset: Triple = (0.0, 0.0, 0.0)) -> Solid:
@@ -52,9 +52,8 @@ def smooth(vertices: Array, faces: NDArray[np.int64]) -> Solid:
 @cache
 def _thinned(name: str) -> tuple[Array, NDArray[np.int64]]:
     """A mesh with its vertices clustered: smooth to look at, a tenth of the size."""
-    data = (_folder() / f"{name}_mesh.STL").read_bytes()
-    corners = np.frombuffer(data, _TRIANGLE, offset=84)["corners"].reshape(-1, 3).astype(float)
-    corners = corners[:, [0, 2, 1]] * (1, -1, 1)  # the figure has y up
+    (mesh,) = meshfiles.read(_folder() / f"{name}_mesh.STL")
+    corners = mesh.vertices[mesh.faces].reshape(-1, 3)[:, [0, 2, 1]] * (1, -1, 1)  # the figure has y up
     cell = GRAIN * np.ptp(corners, axis=0).max()
     keys = np.floor((corners - corners.min(axis=0)) / cell).astype(int)
     flat = np.ravel_multi_index(tuple(keys.T), tuple(keys.max(axis=0) + 1))  # sorts faster than rows do
@@ -65,13 +64,8 @@ def _thinned(name: str) -> tuple[Array, NDArray[np.int64]]:
     return vertices / count[:, None], np.unique(faces[kept], axis=0)
 
 
-@cache
 def _folder() -> Path:
-    try:
-        files = distribution("example-robot-data").files or []
-    except PackageNotFoundError:
-        files = []
-    for file in files:
-        if str(file).endswith(_HOME):
-            return Path(str(file.locate())).parent.parent / "meshes"
-    raise ExoPinError("the wearer's figure comes with example-robot-data; install it or use wearer=False")
+    urdf = located(_HOME)
+    if urdf is None:
+        raise ExoPinError("the wearer's figure comes with example-robot-data; install it or use wearer=False")
+    return urdf.parent.parent / "meshes"

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import cache, lru_cache
-from importlib.metadata import PackageNotFoundError, distribution
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from exo_pin.errors import FormatError
+from exo_pin.robot.examples import located
 from exo_pin.viewer import meshfiles
 from exo_pin.viewer.solids import Color, Solid
 from exo_pin.viewer.thinning import shaded, thinned
@@ -107,22 +107,18 @@ def _packages(urdf: Path, name: str) -> Iterator[Path]:
             yield folder
         if (folder / name / "package.xml").is_file():
             yield folder / name
-    for root in filter(None, os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)):
-        yield from (folder for folder in (Path(root), Path(root) / name) if folder.name == name)
-    for root in filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
-        yield Path(root) / "share" / name
+    for root in _search_path("ROS_PACKAGE_PATH"):
+        yield from (folder for folder in (root, root / name) if folder.name == name)
+    for root in _search_path("AMENT_PREFIX_PATH"):
+        yield root / "share" / name
     if name == "example-robot-data":
-        yield from _example_robot_data()
+        manifest = located("example-robot-data/package.xml")
+        if manifest is not None:
+            yield manifest.parent
 
 
-@cache
-def _example_robot_data() -> tuple[Path, ...]:
-    try:
-        files = distribution("example-robot-data").files or []
-    except PackageNotFoundError:
-        return ()
-    mark = "example-robot-data/package.xml"
-    return tuple(Path(str(file.locate())).parent for file in files if str(file).endswith(mark))
+def _search_path(variable: str) -> list[Path]:
+    return [Path(root) for root in os.environ.get(variable, "").split(os.pathsep) if root]
 
 
 @lru_cache(maxsize=KEPT)

@@ -40,7 +40,7 @@ def view(robot: Robot, gait: Gait, *, height: int = 640, **options: Any) -> View
     """Look at a walk in a notebook.
 
     Args:
-        robot: The exoskeleton.
+        robot: The exoskeleton, or any robot with two legs from `load_urdf`.
         gait: The walk.
         height: Of the frame [px].
         **options: Further options of `viewer.scene`, e.g. `reference=` or `torques=`.

@@ -103,7 +103,10 @@ def _figure_licence() -> list[str]:
     except PackageNotFoundError:
         return []
     paths = [Path(str(file.locate())) for file in files if file.name.startswith("LICENSE")]
-    return ["example-robot-data (the wearer's figure)", *(path.read_text("utf-8") for path in paths)]
+    return [
+        "example-robot-data (the wearer's figure, other robots)",
+        *(path.read_text("utf-8") for path in paths),
+    ]
 
 
 def _meshcat() -> Path:
