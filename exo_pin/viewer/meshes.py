@@ -102,11 +102,7 @@ def _packages(urdf: Path, name: str) -> Iterator[Path]:
     """The folders that a package of that name may be."""
     if not name or name in (".", ".."):
         return
-    for folder in urdf.parents:
-        if folder.name == name:
-            yield folder
-        if (folder / name / "package.xml").is_file():
-            yield folder / name
+    yield from _around(urdf, name)
     for root in _search_path("ROS_PACKAGE_PATH"):
         yield from (folder for folder in (root, root / name) if folder.name == name)
     for root in _search_path("AMENT_PREFIX_PATH"):
@@ -115,6 +111,15 @@ def _packages(urdf: Path, name: str) -> Iterator[Path]:
         manifest = located("example-robot-data/package.xml")
         if manifest is not None:
             yield manifest.parent
+
+
+def _around(urdf: Path, name: str) -> Iterator[Path]:
+    """The packages of that name that a URDF lies in, or beside."""
+    for folder in urdf.parents:
+        if folder.name == name:
+            yield folder
+        if (folder / name / "package.xml").is_file():
+            yield folder / name
 
 
 def _search_path(variable: str) -> list[Path]:
