@@ -16,7 +16,7 @@ from exo_pin.files import read_lines
 from exo_pin.formats.notes import Notes, to_gait
 from exo_pin.formats.presets import preset
 from exo_pin.formats.reading import UNITS, Reading
-from exo_pin.formats.table import Array, Table, parse
+from exo_pin.formats.table import Array, Table, parse, refuse_length
 from exo_pin.gait import Gait
 from exo_pin.signals import GAP, filled, longest_run
 
@@ -55,6 +55,7 @@ def read_gait(path: Path, reading: Reading) -> Gait:
     """
     wanted = _wanted(reading)
     lines = read_lines(path)
+    refuse_length(path, len(lines))
     start, separator = _header(path, lines, wanted)
     names = _cells(lines[start], separator)
     time = _time_column(path, names, wanted, start + 1)

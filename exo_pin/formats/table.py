@@ -14,6 +14,9 @@ from exo_pin.errors import FormatError
 
 Array = NDArray[np.float64]
 
+MOST_ROWS = 2_000_000
+"""Of a table: five hours at 100 Hz; bounds memory (a walk of this size takes 1.2 GB)."""
+
 
 @dataclass(frozen=True, eq=False)
 class Table:
@@ -86,6 +89,7 @@ def parse(
         FormatError: For duplicate names, no rows, ragged rows, cells that are no number, infinity and (but
             for `gaps`) NaN.
     """
+    refuse_length(path, len(lines))
     name, times = Counter(names).most_common(1)[0]
     if times > 1:
         raise FormatError(path, f"column {name[:80]!r} occurs more than once", line=first - 1)
@@ -102,6 +106,12 @@ def parse(
     bad = np.isinf(values) if gaps else ~np.isfinite(values)
     table.refuse(bad, table.names, "expected a finite number")
     return table
+
+
+def refuse_length(path: Path, rows: int) -> None:
+    """Raise `FormatError` for a table that is too long to be read."""
+    if rows > MOST_ROWS:
+        raise FormatError(path, f"{rows} rows; at most {MOST_ROWS} are read, split or resample the recording")
 
 
 def _culprit(
