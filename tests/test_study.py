@@ -44,7 +44,8 @@ def walks(tmp_path):
     (folder / ".hidden" / "no.csv").write_text("")
     (folder / "empty.csv").write_text("")
     (folder / "letters.mot").write_text("no motion\n")
-    (folder / "read.me").write_text("not a recording by its ending")
+    for name in ("read.me", "notes.txt"):
+        (folder / name).write_text("not a recording by its ending")
     return folder
 
 

@@ -28,6 +28,9 @@ GRANTED = (Conditions("recorded"), Conditions("device"))
 
 _MOST = 1000
 
+_MAPPED = {".txt", ".tsv"}
+"""Tables that only a mapping of their columns can read, which a study of many files has not."""
+
 
 def statures(low: float = STATURES[0], high: float = STATURES[1], step: float = STEP) -> tuple[float, ...]:
     """Statures from low to high [m], the end included where the steps meet it.
@@ -104,7 +107,8 @@ def recordings(
 ) -> list[Case]:
     """Every file of a folder and the folders in it whose ending is that of a walk or a marker trial.
 
-    Hidden files are left out. Whether a file can be read is found when it is its turn.
+    Hidden files are passed by, and tables that need a mapping (.txt, .tsv). Whether a file can be read is
+    found when it is its turn.
 
     Args:
         folder: Where the recordings are.
@@ -119,7 +123,7 @@ def recordings(
     folder, parts = Path(folder), _parts(conditions, devices)
     if not folder.is_dir():
         raise FormatError(folder, "not a folder" if folder.exists() else "no such folder")
-    endings = sorted({*FORMATS, *MARKER_FORMATS})
+    endings = sorted({*FORMATS, *MARKER_FORMATS} - _MAPPED)
     names = sorted(
         path.relative_to(folder).as_posix()
         for path in folder.rglob("*")
