@@ -6,6 +6,7 @@ pelvis that follows, joint angles by inverse kinematics.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 
 import numpy as np
@@ -329,3 +330,19 @@ def test_a_standing_child_in_the_laboratory_has_no_strides(shared):
     gait = load_gait(shared / "c3d_pig_walk_HC036A/HC036A01_static.c3d")
     with pytest.raises(GaitError, match=r"no gait cycles found: the left foot moves 0\.0"):
         events(load_robot(), gait)
+
+
+def test_no_motion_breaks_it(robot, rng):
+    """Noise, random walks and waves, few samples and many, with and without a pelvis and a period."""
+    for k in range(40):
+        n = int(rng.choice([2, 3, 5, 30, 200]))
+        t = np.arange(n) * rng.choice([0.001, 0.01, 0.1])
+        waves = np.sin(np.outer(t, rng.uniform(1, 30, 12)) + rng.uniform(0, 6, 12)) * rng.uniform(0, 1.2, 12)
+        q = (rng.uniform(-3, 3, (n, 12)), np.cumsum(0.01 * rng.normal(size=(n, 12)), axis=0), waves)[k % 3]
+        base = np.tile(np.eye(4), (n, 1, 1))
+        base[:, :3, 3] = np.cumsum(0.02 * rng.normal(size=(n, 3)), axis=0)
+        gait = Gait(t, q, base=base if k % 2 else None, periodic=k % 5 == 0)
+        found = ()
+        with contextlib.suppress(GaitError):  # nothing else may come out of it
+            found = events(robot, gait)
+        assert all(gait.time[0] <= event.time <= gait.time[0] + gait.duration for event in found)

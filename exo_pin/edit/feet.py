@@ -96,6 +96,7 @@ def _calmest(
     step = gait.duration / (len(gait) - (not gait.periodic))
     allowed = max(JOLT, float(np.abs(gait.ddq).max()))
     tried: list[tuple[float, Gait, ik.Track]] = []
+    misses: list[float] = []
     for slack in SLACKS:
         down = softened(drop(robot, feet, base, slack), step, gait.periodic)
         under = base[1].copy()
@@ -103,7 +104,9 @@ def _calmest(
         track = ik.track(robot, paths, q, base=under)
         walk = _told(robot, gait, track, under, what, down)
         tried.append((float(np.abs(walk.ddq).max()), walk, track))
-        if tried[-1][0] <= allowed or not down.any():
+        misses.append(float(np.nanmax(track.position_error)))
+        farther = len(misses) > 1 and misses[-1] >= misses[-2] > REACH  # limits, not reach: deeper is no help
+        if tried[-1][0] <= allowed or not down.any() or farther:
             break
     reached = [x for x in tried if np.nanmax(x[2].position_error) <= REACH] or tried[:1]
     _, walk, track = min(reached, key=lambda x: x[0])
