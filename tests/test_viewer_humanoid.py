@@ -196,3 +196,17 @@ def test_options_of_the_exoskeleton_do_not_go_with_a_robot(tmp_path, capsys, opt
     assert main(["replay", "--robot", "bolt", *option, "--html", str(page)]) == 2
     assert option[0] in capsys.readouterr().err
     assert not page.exists()
+
+
+def test_a_walk_along_another_axis_of_its_laboratory_is_turned_as_the_exoskeleton_s():
+    travel = np.zeros((len(GAIT), 3))
+    travel[:, 0] = 1.3 * GAIT.time
+    base = GAIT.base.copy()
+    base[:, :3, 3] += travel
+    quarter = np.eye(4)
+    quarter[:2, :2] = [[0, -1], [1, 0]]
+    along = [
+        viewer.retargeted(retarget(exo_pin.Gait(GAIT.time, GAIT.q, base=T @ base), "bolt")).arrays["base"]
+        for T in (np.eye(4), quarter)
+    ]
+    assert along[1] == pytest.approx(along[0], abs=1e-4)

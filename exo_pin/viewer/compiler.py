@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from math import degrees, radians
 from typing import Any
 
@@ -128,7 +129,11 @@ def retargeted(
     Raises:
         UnknownNameError: There is no such support.
     """
+    gait, faced = _facing(walk.gait)
+    if faced:
+        walk = replace(walk, gait=gait, base=_turn(walk.gait, gait) @ walk.base)
     play = humanoid(walk, support, compare, compare_title)
+    notes = (*notes, *faced)
     return _compiled(play, title or f"{walk.target.title or walk.target.name} gait", notes, speed)
 
 
@@ -139,6 +144,14 @@ def _facing(gait: Gait) -> tuple[Gait, list[str]]:
         return gait, []
     how = f"Turned about the vertical by {-degrees(angle):.0f} degrees, so that it goes along the room's x."
     return turned(gait, -angle), [how]
+
+
+def _turn(gait: Gait, faced: Gait) -> Array:
+    """The rotation (4, 4) that a walk was turned by."""
+    T = np.eye(4)
+    if gait.base is not None and faced.base is not None:
+        T[:3, :3] = faced.base[0, :3, :3] @ gait.base[0, :3, :3].T
+    return T
 
 
 def _compiled(play: Play, title: str, notes: Iterable[str], speed: float) -> Scene:
