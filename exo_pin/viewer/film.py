@@ -30,7 +30,8 @@ SIDES = (16, 8192)
 _NO_HANDS = "#grips { display: none !important }"
 _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
-#app { display: block !important } #view { position: fixed !important; inset: 0 } #pane { inset: 0 !important }
+#app { display: block !important } #view { position: fixed !important; inset: 0 }
+#pane { inset: 0 !important }
 """
 
 
