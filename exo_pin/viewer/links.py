@@ -7,8 +7,6 @@ turning the joint nodes and nothing else.
 
 from __future__ import annotations
 
-import math
-import re
 import xml.etree.ElementTree as ET
 from collections import defaultdict
 from collections.abc import Iterator
@@ -18,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import DescriptionError
-from exo_pin.viewer import solids
+from exo_pin.viewer import elements, solids
 from exo_pin.viewer.meshes import Meshes
 from exo_pin.viewer.protocol import Command, Material, draw, mesh, place
 from exo_pin.viewer.solids import Solid
@@ -115,25 +113,18 @@ def linkage(urdf: str, root: str, *, paint: Material | None = None, meshes: Mesh
         raise DescriptionError(f"the URDF cannot be drawn: {error}") from error
 
 
-def pose(origin: ET.Element | None) -> Array:
-    """`(4, 4)` pose of a URDF `<origin>`: xyz [m] and fixed-axis roll, pitch, yaw [rad]."""
-    T = np.eye(4)
-    if origin is not None:
-        T[:3, :3] = _rotation(*_numbers(origin.get("rpy", "0 0 0")))
-        T[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
-    return T
-
-
 class _Nesting:
     """Walks the tree of links once and collects nodes, joints and pictures."""
 
     def __init__(self, robot: ET.Element, paint: Material | None, meshes: Meshes | None) -> None:
         self.robot, self.paint, self.meshes = robot, paint, meshes
         self.bare = meshes is not None and robot.find("link/visual") is None
-        self.colors = {m.get("name", ""): c for m in robot.findall("material") if (c := _rgba(m)) is not None}
+        self.colors = {
+            m.get("name", ""): c for m in robot.findall("material") if (c := elements.rgba(m)) is not None
+        }
         self.children: dict[str, list[ET.Element]] = defaultdict(list)
         for joint in robot.findall("joint"):
-            self.children[_end(joint, "parent")].append(joint)
+            self.children[elements.end(joint, "parent")].append(joint)
         self.elements = {link.get("name", ""): link for link in robot.findall("link")}
         self.links: dict[str, str] = {}
         self.turns: list[Turn] = []
@@ -143,7 +134,7 @@ class _Nesting:
         self.shapes: dict[str, Solid] = {}
 
     def below(self, path: str) -> Linkage:
-        moved = {_end(joint, "child") for joint in self.robot.findall("joint")}
+        moved = {elements.end(joint, "child") for joint in self.robot.findall("joint")}
         roots = [name for name in self.elements if name not in moved]
         if len(roots) != 1:
             raise DescriptionError(f"the URDF must have one root link, not {len(roots)}: {', '.join(roots)}")
@@ -165,7 +156,7 @@ class _Nesting:
             found = list(self.visual(visual))
             self.skipped += not found
             for solid, material in found:
-                looks[material].append(solid.placed(pose(visual.find("origin"))))
+                looks[material].append(solid.placed(elements.pose(visual.find("origin"))))
         if self.meshes is not None and not looks and (visuals or self.bare):
             looks[self.paint or BONE].extend(self.bones(name))
         looks = {material: parts for material, parts in looks.items() if parts}
@@ -180,40 +171,42 @@ class _Nesting:
     def visual(self, visual: ET.Element) -> Iterator[tuple[Solid, Material]]:
         """What can be drawn of a visual: a primitive, or the parts of a mesh."""
         geometry = visual.find("geometry")
-        solid = _solid(geometry)
+        solid = elements.solid(geometry)
         if solid is not None:
             yield solid, self.material(visual)
         found = None if geometry is None else geometry.find("mesh")
         if self.meshes is None or found is None:
             return
-        x, y, z = _numbers(found.get("scale") or "1 1 1")
+        x, y, z = elements.numbers(found.get("scale") or "1 1 1")
         for part, color in self.meshes.solids(found.get("filename", ""), (x, y, z)):
             yield part, replace(self.material(visual, color), more=BOTH_SIDES)
 
     def bones(self, name: str) -> Iterator[Solid]:
         """Capsules from a link's origin to the joints that hang on it."""
         for joint in self.children[name]:
-            end = pose(joint.find("origin"))[:3, 3]
+            end = elements.pose(joint.find("origin"))[:3, 3]
             length = float(np.linalg.norm(end))
             if length > SHORTEST_BONE:
                 yield solids.capsule(end, min(SLENDER * length, THICKEST))
 
     def joint(self, joint: ET.Element, path: str) -> None:
-        child, name = _end(joint, "child"), joint.get("name", "")
-        held = f"{path}/{_node(child)}"
-        self.commands.append(place(held, pose(joint.find("origin"))))
+        child, name = elements.end(joint, "child"), joint.get("name", "")
+        held = f"{path}/{elements.node(child)}"
+        self.commands.append(place(held, elements.pose(joint.find("origin"))))
         kind = MOVING.get(joint.get("type", ""))
         if kind is None:
             self.link(child, held)
             return
         turn = f"{held}/turn"
         axis = joint.find("axis")
-        direction = np.array(_numbers(axis.get("xyz", "1 0 0")) if axis is not None else [1.0, 0.0, 0.0])
+        direction = np.array(
+            elements.numbers(axis.get("xyz", "1 0 0")) if axis is not None else [1.0, 0.0, 0.0]
+        )
         length = float(np.linalg.norm(direction))
         if not length > 0:
             raise DescriptionError(f"joint {name!r} of the URDF has no axis")
         x, y, z = (direction / length).tolist()
-        self.turns.append(Turn(name, turn, (x, y, z), kind, _limits(joint)))
+        self.turns.append(Turn(name, turn, (x, y, z), kind, elements.limits(joint)))
         self.link(child, turn)
 
     def material(self, visual: ET.Element, color: solids.Color | None = None) -> Material:
@@ -222,58 +215,6 @@ class _Nesting:
             return self.paint
         element = visual.find("material")
         name = "" if element is None else element.get("name", "")
-        own = None if element is None else _rgba(element)
+        own = None if element is None else elements.rgba(element)
         roughness, metalness = FINISHES.get(name, PLAIN)
         return Material(color or own or self.colors.get(name) or GREY, roughness, metalness)
-
-
-def _solid(geometry: ET.Element | None) -> Solid | None:
-    if geometry is None:
-        return None
-    if (found := geometry.find("box")) is not None:
-        return solids.box(_numbers(found.get("size", "")))
-    if (found := geometry.find("cylinder")) is not None:
-        return solids.cylinder(float(found.get("radius", 0)), float(found.get("length", 0)))
-    if (found := geometry.find("sphere")) is not None:
-        return solids.sphere(float(found.get("radius", 0)))
-    return None
-
-
-def _rotation(roll: float, pitch: float, yaw: float) -> Array:
-    (a, b, c), (s, t, u) = (map(f, (roll, pitch, yaw)) for f in (math.cos, math.sin))
-    Rx = np.array([[1, 0, 0], [0, a, -s], [0, s, a]])
-    Ry = np.array([[b, 0, t], [0, 1, 0], [-t, 0, b]])
-    Rz = np.array([[c, -u, 0], [u, c, 0], [0, 0, 1]])
-    R: Array = Rz @ Ry @ Rx
-    return R
-
-
-def _limits(joint: ET.Element) -> tuple[float, float] | None:
-    limit = joint.find("limit")
-    if joint.get("type") == "continuous" or limit is None:
-        return None
-    return float(limit.get("lower", 0)), float(limit.get("upper", 0))
-
-
-def _end(joint: ET.Element, which: str) -> str:
-    element = joint.find(which)
-    if element is None or not element.get("link"):
-        raise DescriptionError(f"joint {joint.get('name')!r} of the URDF names no {which} link")
-    return str(element.get("link"))
-
-
-def _rgba(material: ET.Element) -> tuple[float, float, float, float] | None:
-    color = material.find("color")
-    if color is None:
-        return None
-    red, green, blue, opacity = _numbers(color.get("rgba", "0.7 0.7 0.7 1"))
-    return red, green, blue, opacity
-
-
-def _numbers(text: str) -> list[float]:
-    return [float(part) for part in text.split()]
-
-
-def _node(link: str) -> str:
-    """A link's name as the name of a node: `/` separates nodes, and `<object>` is meshcat's own."""
-    return re.sub(r"[^\w.-]", "_", link)
