@@ -172,7 +172,9 @@ def test_a_joint_that_the_model_lacks_is_held_at_a_number(path):
     gait = load_gait(path, mapping={"0": "left_ankle_inversion", "-5": "right_ankle_inversion"})
     np.testing.assert_allclose(np.degrees(gait.q[:, [5, 11]]), [[0, -5]] * 5, atol=1e-9)
     assert "so held: subtalar_angle_l, subtalar_angle_r" in gait.source
-    refused(path, storage(degrees(), names), "only a number, which holds", mapping={"x": "left_ankle_inversion"})
+    refused(
+        path, storage(degrees(), names), "only a number, which holds", mapping={"x": "left_ankle_inversion"}
+    )
     with pytest.raises(UnknownNameError, match="joint 'ankle'"):
         load_gait(path, mapping={"0": "ankle"})
 
