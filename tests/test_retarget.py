@@ -88,6 +88,7 @@ def test_foot_by_foot_reaches_every_foot_within_the_limits(walked, name):
     result.robot.check_limits(result.q)
     assert result.facts()["samples_missed"] == 0
     assert max(use["share"] for use in result.limit_use().values()) <= 1 + 1e-9
+    assert not any(use["samples_outside"] for use in result.limit_use().values())  # as docs/robots.md says
 
 
 @pytest.mark.parametrize("name", TARGETS)
