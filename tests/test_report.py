@@ -17,7 +17,7 @@ from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
 from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, spatiotemporal
-from exo_pin.report import angles, axis, blocks, chart, cycle, loop, noise, panels, skeleton, svg
+from exo_pin.report import angles, axis, blocks, chart, cycle, facts, loop, noise, panels, skeleton, svg
 from exo_pin.report.motion import motion
 from exo_pin.robot import load_robot, load_urdf
 
@@ -488,3 +488,19 @@ def test_bad_requests_are_refused(tmp_path, capsys):
     assert cli.main(["reproduce", "--no-render", "-o", str(tmp_path / "file")]) == 2
     assert not list(tmp_path.glob("r.*"))
     assert "exo-pin: " in capsys.readouterr().err
+
+
+def test_strides_on_a_turn_are_left_out_and_named(robot, gait):
+    """The pelvis turns by a right angle in the second of four cycles."""
+    long = gait.repeated(4)
+    yaw = np.pi / 2 * np.clip(long.time / gait.duration - 1, 0, 1)
+    c, s = np.cos(yaw), np.sin(yaw)
+    R = np.stack(
+        [np.stack([c, -s, 0 * c], 1), np.stack([s, c, 0 * c], 1), np.tile([0.0, 0, 1], (len(c), 1))], 1
+    )
+    base = long.base.copy()
+    base[:, :3, :3] = R @ base[:, :3, :3]
+    walk = Gait(long.time, long.q, base=base, events=long.events, source="with a turn")
+    words = str(facts.numbers(robot, walk))
+    assert "turning, not walking straight on" in words
+    assert "Left out" not in str(facts.numbers(robot, gait))

@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping
 
 from exo_pin import __version__
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.body import Leg
 from exo_pin.errors import DescriptionError, GaitError
-from exo_pin.gait import Gait, against_normal, normal
+from exo_pin.gait import Gait, Stride, against_normal, normal, strides
 from exo_pin.gait.norms import CITATIONS
 from exo_pin.kinematics import spatiotemporal
 from exo_pin.report.blocks import Block, Section, Table, Words
@@ -87,8 +88,15 @@ def numbers(robot: Robot, gait: Gait) -> Section:
     cited = "; ".join(
         f"{key}: {CITATIONS[key]}" for key in sorted({usual.source for usual in ranges.values()})
     )
-    note = f"Lengths are those of this body's legs. Usual ranges: {cited}."
-    return Section(title, (Table(columns, rows), Words(note, "note")))
+    note = f"Lengths are those of this body's legs. Usual ranges: {cited or 'none'}."
+    left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in _left_out(gait))
+    gone = [Words(f"Left out: {'; '.join(left)}.", "note")] if _left_out(gait) else []
+    return Section(title, (Table(columns, rows), *gone, Words(note, "note")))
+
+
+def _left_out(gait: Gait) -> list[Stride]:
+    """Spans between two heel strikes of a foot that are no strides of a walk."""
+    return [span for side in SIDES for span in strides(gait, side) if span.why]
 
 
 def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: str | None) -> Section:
