@@ -98,8 +98,8 @@ def test_cycles_prints_numbers_and_writes_mean_and_spread(capsys, tmp_path, reco
     assert len(lines) == 1 + 101
     assert lines[0].startswith("percent,left_hip_flexion_mean_deg,left_hip_flexion_sd_deg")
     assert load_gait(mean).periodic
-    code, out, _ = run(capsys, "cycles", recording, "--json")
-    facts = json.loads(out)
+    code, out, _ = run(capsys, "cycles", recording, "--json", "-o", table)
+    facts = json.loads(out)  # and nothing else is printed
     assert facts["cycles"]["left"] >= 1
     assert facts["spatiotemporal"]["speed"]["unit"] == "m/s"
 

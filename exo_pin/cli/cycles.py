@@ -60,6 +60,8 @@ def run(args: argparse.Namespace) -> int:
         _print(args, cut, found)
     if args.output:
         _write(args.output, cut, gait.source)
+        if not args.json:
+            print(f"{args.output}: {len(cut.percent)} points of {count(cut)}")
     if args.mean:
         save_gait(cut.average(f"{gait.source}; mean of {count(cut)}"), args.mean)
     return 0
@@ -172,4 +174,3 @@ def _write(path: str, cut: Cycles, source: str) -> None:
     lines = [",".join("" if x != x else repr(x) for x in row) for row in rows]
     head = [f"# {count(cut)}, mean and standard deviation", f"# source: {source}"]
     write_text(path, "\n".join([*head, ",".join(names), *lines, ""]))
-    print(f"{path}: {len(cut.percent)} points of {len(cut)} cycles")

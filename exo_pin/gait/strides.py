@@ -78,7 +78,7 @@ def strides(gait: Gait, side: str) -> tuple[Stride, ...]:
     usual = float(np.median([span.duration for span in spans]))
     offs = [event.time for event in mine if event.kind == "toe_off"]
     lifted = np.array([bool(between(offs, span.start, span.end)) for span in spans])
-    rest, turns = _still(gait, usual).tolist(), turned(gait, strikes)
+    rest, turns = _still(gait, usual).tolist(), turns_of(gait, strikes)
     whys = [
         _why(span, usual, rest, abs(turn)) or ("" if lift or lifted.mean() <= MOST else "no toe-off in it")
         for span, turn, lift in zip(spans, turns, lifted, strict=True)
@@ -113,7 +113,7 @@ def _why(span: Stride, usual: float, rest: Sequence[float], turn: float) -> str:
     return ""
 
 
-def turned(gait: Gait, times: Sequence[float] | Array) -> Array:
+def turns_of(gait: Gait, times: Sequence[float] | Array) -> Array:
     """How far the pelvis's level heading turns from each of `(m,)` times to the next, `(m - 1,)` [rad]."""
     if gait.base is None:
         return np.zeros(len(times) - 1)

@@ -13,7 +13,7 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.bouts import walking
 from exo_pin.gait.steps import Feet
-from exo_pin.gait.strides import strides, turned
+from exo_pin.gait.strides import strides, turns_of
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
@@ -96,7 +96,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     try:
         found = walking(feet, periodic=gait.periodic)
     except GaitError as error:
-        turn = abs(float(turned(gait, gait.time[[0, -1]])[0]))
+        turn = abs(float(turns_of(gait, gait.time[[0, -1]])[0]))
         hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > TURNED else ""
         raise GaitError(f"{error}{hint}") from error
     _check_strides(dataclasses.replace(gait, events=found))
