@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "exo_pin"
 FLOORS = [
     {"errors"},  # the ground floor has four steps
     {"files"},
-    {"cache"},
+    {"cache", "examples"},
     {"anatomy"},
     {"devices"},
     {"description", "dh", "gait", "signals"},

@@ -12,13 +12,13 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.examples import located
 from exo_pin.files import read_text
 from exo_pin.retarget import structure, userfile
 from exo_pin.retarget.axes import direction
 from exo_pin.retarget.legs import RobotLeg, robot_leg
 from exo_pin.retarget.targets import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf
-from exo_pin.robot.examples import located
 
 Array = npt.NDArray[np.float64]
 

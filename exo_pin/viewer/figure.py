@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import ExoPinError
-from exo_pin.robot.examples import located
+from exo_pin.examples import located
 from exo_pin.viewer import meshfiles
 from exo_pin.viewer.solids import Solid
 

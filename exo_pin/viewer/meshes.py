@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.errors import FormatError
-from exo_pin.robot.examples import located
+from exo_pin.examples import located
 from exo_pin.viewer import meshfiles
 from exo_pin.viewer.solids import Color, Solid
 from exo_pin.viewer.thinning import shaded, thinned

@@ -9,10 +9,10 @@ import json
 import re
 from functools import cache
 from importlib import resources
-from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
+from exo_pin import examples
 from exo_pin.errors import ExoPinError
 
 SCRIPTS = (
@@ -98,15 +98,8 @@ def licences() -> str:
 
 def _figure_licence() -> list[str]:
     """The licence of example-robot-data, whose figure of a person may be in the page."""
-    try:
-        files = distribution("example-robot-data").files or []
-    except PackageNotFoundError:
-        return []
-    paths = [Path(str(file.locate())) for file in files if file.name.startswith("LICENSE")]
-    return [
-        "example-robot-data (the wearer's figure, other robots)",
-        *(path.read_text("utf-8") for path in paths),
-    ]
+    texts = [path.read_text("utf-8") for path in examples.licences()]
+    return ["example-robot-data (the wearer's figure, other robots)", *texts] if texts else []
 
 
 def _meshcat() -> Path:
