@@ -13,6 +13,7 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait, normative_gait
 from exo_pin.gait.heading import heading, turned
+from exo_pin.gait.rigid import about, angle_of
 
 ROUNDING = 1e-12  # [rad, m] sums of a few dozen terms of size 1
 SPECTRAL = 1e-9  # [rad/s^2] rounding times the square of the highest frequency
@@ -335,3 +336,14 @@ def test_a_walk_that_turns_around_or_holds_the_pelvis_has_no_heading():
     base[:, :2, :2] = np.moveaxis([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]], 2, 0)
     assert heading(replace(walk, base=base)) is None
     assert heading(replace(walk, base=None)) is None
+
+
+def test_a_turn_about_an_axis_has_its_angle_and_leaves_the_axis_where_it_is(rng):
+    axis = rng.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    angles = np.array([0.0, 1e-12, 1e-5, 0.3, 2.0, 3.1])
+    R = about(axis, angles)
+    assert R == pytest.approx(turn(axis, angles), abs=ROUNDING)
+    assert R @ axis == pytest.approx(np.tile(axis, (len(angles), 1)), abs=ROUNDING)
+    assert angle_of(R) == pytest.approx(angles, abs=1e-15, rel=1e-4)  # an arc cosine loses 1e-8
+    assert about(axis, 0.3) == pytest.approx(R[3], abs=ROUNDING)

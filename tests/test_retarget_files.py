@@ -10,9 +10,10 @@ import pytest
 from exo_pin.cli import main
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.gait import normative_gait
+from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load, retarget
-from exo_pin.retarget.axes import about, direction, named, turns
+from exo_pin.retarget.axes import direction, named, turns
 from exo_pin.robot import load_urdf
 
 GAIT = normative_gait().resampled(10)

@@ -13,6 +13,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.compare.motion import Motion, Walk
 from exo_pin.devices import Device
 from exo_pin.gait.phases import masks
+from exo_pin.gait.rigid import angle_of
 
 Array = npt.NDArray[np.float64]
 
@@ -50,9 +51,7 @@ class Loss:
     def rotation_error(self) -> Array:
         """Angle between the feet and the recorded ones (n, 2) [rad]."""
         R = self.motion.feet[..., :3, :3].swapaxes(-1, -2) @ self.walk.feet[..., :3, :3]
-        twist = R - R.swapaxes(-1, -2)
-        sine = np.linalg.norm(twist[..., [2, 0, 1], [1, 2, 0]], axis=-1) / 2
-        return np.asarray(np.arctan2(sine, (np.trace(R, axis1=-2, axis2=-1) - 1) / 2))
+        return angle_of(R)
 
     @property
     def rms(self) -> float:

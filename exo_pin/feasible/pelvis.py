@@ -9,6 +9,7 @@ from exo_pin.devices import SLIDES
 from exo_pin.feasible.limits import JointDemand
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import derivative
+from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics.stand import stand
 from exo_pin.robot import Robot
 
@@ -55,8 +56,7 @@ def dropped(robot: Robot, gait: Gait) -> dict[str, float]:
         for axis, name in enumerate(SLIDES)
         if name not in robot.joints
     }
-    cosine = 0.5 * (np.trace(seen[:, :3, :3], axis1=1, axis2=2) - 1.0)
-    return lost | {TURN: float(np.arccos(np.clip(cosine, -1.0, 1.0)).max())}
+    return lost | {TURN: float(angle_of(seen[:, :3, :3]).max())}
 
 
 def _seen(gait: Gait) -> Array:

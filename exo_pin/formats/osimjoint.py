@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from exo_pin.gait.rigid import about
+
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
@@ -65,7 +67,7 @@ class Joint(NamedTuple):
         for axis in self.slides:
             T[:, :3, 3] += np.outer(_amount(axis, values, n), axis.vector)
         for axis in self.turns:
-            T[:, :3, :3] = T[:, :3, :3] @ turned(axis.vector, _amount(axis, values, n))
+            T[:, :3, :3] = T[:, :3, :3] @ about(axis.vector, _amount(axis, values, n))
         out = self.in_parent @ T @ np.linalg.inv(self.in_child)
         return np.asarray(out)
 
@@ -75,18 +77,10 @@ def _amount(axis: Axis, values: Mapping[str, Array], n: int) -> Array:
     return np.asarray(moved + axis.offset)
 
 
-def turned(axis: Sequence[float], angle: Array) -> Array:
-    """`(n, 3, 3)` rotations by angles `(n,)` [rad] about a vector of length 1 (Rodrigues)."""
-    x, y, z = axis
-    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    sin, cos = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]
-    return np.asarray(np.eye(3) + sin * K + (1 - cos) * (K @ K))
-
-
 def offset(translation: Sequence[float], orientation: Sequence[float]) -> Array:
     """`(4, 4)` of an offset frame: translation [m], and turns about x, then y, then z of the turned frame."""
     T = np.eye(4)
     for axis, angle in zip((X, Y, Z), orientation, strict=True):
-        T[:3, :3] = T[:3, :3] @ turned(axis, np.array([angle]))[0]
+        T[:3, :3] = T[:3, :3] @ about(axis, angle)
     T[:3, 3] = translation
     return T

@@ -1,9 +1,9 @@
-"""Rigid poses that vary in time: their check, their nearest rotation, their angular velocity."""
+"""Rigid poses that vary in time: their check, their nearest rotation, turns about axes, angular velocity."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
@@ -32,6 +32,21 @@ def nearest_pose(T: Array) -> Array:
     pose[:, :3, :3] = U @ Vt
     pose[:, :3, 3] = T[:, :3, 3]
     return pose
+
+
+def about(axis: ArrayLike, angle: ArrayLike) -> Array:
+    """`(n, 3, 3)` rotations about a unit axis `(3,)` by angles `(n,)` [rad], `(3, 3)` by one (Rodrigues)."""
+    x, y, z = np.asarray(axis, dtype=float)
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    angle = np.asarray(angle, dtype=float)[..., None, None]
+    return np.asarray(np.eye(3) + np.sin(angle) * K + (1.0 - np.cos(angle)) * (K @ K))
+
+
+def angle_of(R: Array) -> Array:
+    """`(...)` angles of rotations `(..., 3, 3)` [rad], 0 to pi; exact near 0, unlike an arc cosine."""
+    twist = R - np.swapaxes(R, -1, -2)
+    sine = np.linalg.norm(twist[..., [2, 0, 1], [1, 2, 0]], axis=-1) / 2
+    return np.asarray(np.arctan2(sine, (np.trace(R, axis1=-2, axis2=-1) - 1) / 2))
 
 
 def angular_velocity(R: Array, dR: Array) -> Array:

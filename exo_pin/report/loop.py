@@ -11,6 +11,7 @@ import numpy.typing as npt
 from exo_pin import ik
 from exo_pin.anatomy import FEET
 from exo_pin.gait import Gait
+from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.report import svg
 from exo_pin.report.blocks import Drawing
@@ -37,9 +38,8 @@ def errors_by_step(robot: Robot, gait: Gait, sample: int, *, tolerance: float) -
     middle[robot.nq - len(robot.joints) :] = 0.5 * (robot.lower + robot.upper)
     start = poses(robot, middle[None], FEET, base=row)
     turn = np.swapaxes(start[0, :, :3, :3], -1, -2) @ feet[0, :, :3, :3]
-    angle = np.arccos(np.clip((np.trace(turn, axis1=-2, axis2=-1) - 1) / 2, -1, 1))
     away = np.linalg.norm(start[0, :, :3, 3] - feet[0, :, :3, 3], axis=-1)
-    errors = [float(max(angle.max(), away.max()))]
+    errors = [float(max(angle_of(turn).max(), away.max()))]
     settings = ik.Dls(tolerance=tolerance, restarts=0)
     for steps in range(1, MOST + 1):
         track = ik.track(robot, targets, middle, base=row, settings=replace(settings, max_iterations=steps))

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.errors import DescriptionError
+from exo_pin.gait.rigid import about
 
 Array = npt.NDArray[np.float64]
 
@@ -63,14 +64,6 @@ def turns(axes: npt.ArrayLike, R: npt.ArrayLike) -> Array:
     across = np.cross(c, a if abs(a @ c) < 0.9 else b)
     third = _angle(c, np.broadcast_to(across, middle.shape), left @ across)
     return np.stack([first, second, third], axis=-1)[:, : len(own)]
-
-
-def about(axis: Array, angle: Array) -> Array:
-    """Rotations (n, 3, 3) about a unit axis (3,) by angles (n,) [rad] (Rodrigues)."""
-    x, y, z = axis
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    sin, cos = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]
-    return np.asarray(np.eye(3) + sin * skew + (1.0 - cos) * (skew @ skew))
 
 
 def _completed(axes: Array) -> tuple[Array, Array, Array]:

@@ -10,9 +10,9 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.errors import DescriptionError
+from exo_pin.gait.rigid import about
 from exo_pin.ik.leg import nearest_point
 from exo_pin.kinematics import poses
-from exo_pin.retarget.axes import about
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import Body
 from exo_pin.gait import Gait
+from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.retarget.machine import Machine
 from exo_pin.retarget.targets import Target
@@ -146,11 +147,7 @@ class Retargeted:
         rest = np.array([leg.T[:3, :3] for leg in legs])
         R = turn.T @ T[..., :3, :3] @ np.swapaxes(rest, -1, -2)
         off = np.swapaxes(self.attitudes, -1, -2) @ R
-        sine = np.stack([off[..., 2, 1] - off[..., 1, 2], off[..., 0, 2] - off[..., 2, 0],
-                         off[..., 1, 0] - off[..., 0, 1]], axis=-1)  # fmt: skip
-        cosine = np.trace(off, axis1=-2, axis2=-1) - 1.0
-        angles = np.arctan2(np.linalg.norm(sine, axis=-1), cosine)
-        return np.linalg.norm(ankles - self.ankles, axis=-1), np.asarray(angles)
+        return np.linalg.norm(ankles - self.ankles, axis=-1), angle_of(off)
 
 
 def _residuals(place: Array, turn: Array) -> dict[str, float]:

@@ -16,8 +16,9 @@ import numpy.typing as npt
 from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.gait import Gait
+from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
-from exo_pin.retarget.axes import about, turns
+from exo_pin.retarget.axes import turns
 from exo_pin.retarget.legs import RobotLeg
 from exo_pin.retarget.machine import Machine, load, ready
 from exo_pin.retarget.result import Retargeted
@@ -113,7 +114,7 @@ def _limbs(gait: Gait, walker: Robot, lean: float) -> Array:
 def _tilt(lean: float) -> Array:
     """A pose (4, 4) that is turned forward, about the axis to the left."""
     T = np.eye(4)
-    T[:3, :3] = about(np.array([0.0, 1.0, 0.0]), np.array([lean]))[0]
+    T[:3, :3] = about((0.0, 1.0, 0.0), lean)
     return T
 
 

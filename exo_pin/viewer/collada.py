@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from exo_pin.gait.rigid import about
 from exo_pin.viewer.solids import Color
 
 Array = NDArray[np.float64]
@@ -133,11 +134,8 @@ def _translation(numbers: Array) -> Array:
 
 def _rotation(numbers: Array) -> Array:
     """About an axis by degrees."""
-    x, y, z = numbers[:3] / max(float(np.linalg.norm(numbers[:3])), 1e-12)
-    angle = math.radians(numbers[3])
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     T = np.eye(4)
-    T[:3, :3] += math.sin(angle) * skew + (1.0 - math.cos(angle)) * (skew @ skew)
+    T[:3, :3] = about(numbers[:3] / max(float(np.linalg.norm(numbers[:3])), 1e-12), math.radians(numbers[3]))
     return T
 
 
