@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.ik.limb import AXES, Limb
+from exo_pin.ik.pull import bow
 from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]
@@ -36,7 +37,7 @@ def bend(limb: Limb, data: Any, goals: list[Goal], k: int, scale: tuple[float, f
             turn = pin.log3(goal.R[k] @ M.rotation.T)
             twist = pin.skew(turn) @ spin
             weight = (scale[1] * goal.rotation_weight) ** 2
-            H -= weight * (_bow(turn) * (twist.T @ twist) - 0.5 * _mirrored(spin.T @ twist))
+            H -= weight * (bow(np.linalg.norm(turn)) * (twist.T @ twist) - 0.5 * _mirrored(spin.T @ twist))
     return H
 
 
@@ -60,12 +61,6 @@ def definite(A: Array, g: Array, rest: Array, down: Array, up: Array) -> tuple[A
     except np.linalg.LinAlgError:
         return A, g
     return whole, np.where(free, g, 0.0)
-
-
-def _bow(turn: Array) -> float:
-    """What the inverse Jacobian of a rotation vector holds of its square; 1/12 for a small one."""
-    half = 0.5 * max(float(np.linalg.norm(turn)), 1e-4)
-    return float((1.0 - half / np.tan(half)) / (4.0 * half * half))
 
 
 def _mirrored(A: Array) -> Array:

@@ -142,10 +142,15 @@ def _add_rotation(total: Pull, R: Array, aim: Aim, f: int, own: Rows, spin: Arra
     total.slope[own] += weight * (spin * t[:, None]).sum(axis=0)
     square = np.ix_(own, own)
     total.normal[square] += weight * _dots(spin, spin)
-    half = 0.5 * np.maximum(angle, 1e-4)
-    k = (1.0 - half / np.tan(half)) / (4.0 * half * half)
+    k = bow(angle)
     twist = cross(np.broadcast_to(t[:, None], spin.shape), spin)
     total.rest[square] -= weight * (k * _dots(twist, twist) + 0.5 * _mirrored(_dots(spin, -twist)))
+
+
+def bow(angle: npt.ArrayLike) -> Array:
+    """The k of the module's formulas for missed rotations by these angles [rad]; 1/12 for small ones."""
+    half = 0.5 * np.maximum(angle, 1e-4)
+    return np.asarray((1.0 - half / np.tan(half)) / (4.0 * half * half))
 
 
 def cross(a: Array, b: Array) -> Array:

@@ -26,6 +26,9 @@ ANKLE = ("ankle_inversion", "ankle_dorsiflexion", "")
 PITCH = 1
 """The coordinate that flexes: y, to the left."""
 
+WHOLE = 6
+"""Joints of a leg that has all that a foot needs."""
+
 _KNEE_STEPS = 721  # a quarter of a degree over 180: the reach is found within 3e-6 of itself
 
 
@@ -57,6 +60,11 @@ class RobotLeg:
     def knee(self) -> int:
         """Place of the knee in `joints`."""
         return self.movements.index("knee_flexion")
+
+    @property
+    def whole(self) -> bool:
+        """Whether it puts the foot anywhere in any attitude; others put it there and turn it as they can."""
+        return len(self.joints) == WHOLE
 
     @property
     def hip_order(self) -> str:

@@ -89,7 +89,7 @@ class Retargeted:
     def missed(self) -> npt.NDArray[np.bool_]:
         """Which feet (n, 2) were not reached; legs of fewer than six joints answer for the place alone."""
         place, turn = self.errors
-        whole = [len(leg.joints) >= 6 for leg in self.machine.legs]
+        whole = [leg.whole for leg in self.machine.legs]
         return np.asarray((place > REACHED) | ((turn > REACHED) & whole))
 
     def limit_use(self) -> dict[str, dict[str, Any]]:

@@ -29,9 +29,6 @@ Array = npt.NDArray[np.float64]
 
 Walker = str | Path | Target | Robot | Machine
 
-WHOLE = 6
-"""So many joints put a foot anywhere in any attitude; fewer put it there and turn it as they can."""
-
 SETTINGS = ik.Auto(tolerance=1e-6, dls=ik.Dls(restarts=0))
 """A micrometre and a microradian are enough for a robot's joints; the copied angles are a good start."""
 
@@ -142,7 +139,7 @@ def _solved(
     low = robot.nq - len(robot.joints)
     start[:, low:] = np.clip(start[:, low:], robot.lower, robot.upper)
     goals = {leg.foot: _goal(machine, leg, ankles[:, k], R[:, k]) for k, leg in enumerate(machine.legs)}
-    whole = all(len(leg.joints) == WHOLE for leg in machine.legs)
+    whole = all(leg.whole for leg in machine.legs)
     q = ik.track(robot, goals, start, settings=SETTINGS if whole else NEAREST).q
     return Retargeted(
         machine=machine,
@@ -164,7 +161,7 @@ def _goal(machine: Machine, leg: RobotLeg, ankle: Array, R: Array) -> ik.Points 
     T = np.tile(np.eye(4), (len(R), 1, 1))
     T[:, :3, :3] = turn @ R @ leg.T[:3, :3]
     T[:, :3, 3] = ankle @ turn.T - np.einsum("nij,j->ni", T[:, :3, :3], leg.ankle_in_foot)
-    if len(leg.joints) == WHOLE:
+    if leg.whole:
         return T
     local = leg.ankle_in_foot + np.vstack([np.zeros(3), ARM * np.eye(3)])
     points = local @ np.swapaxes(T[:, :3, :3], -1, -2) + T[:, None, :3, 3]

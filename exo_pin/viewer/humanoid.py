@@ -26,9 +26,6 @@ from exo_pin.viewer.world import ROOT, Mount
 
 Array = NDArray[np.float64]
 
-WHOLE = 6
-"""Legs of so many joints follow the hand with place and attitude."""
-
 HEADROOM = 0.06
 """The picture reaches so far above the robot's highest point [m]."""
 
@@ -60,14 +57,13 @@ def humanoid(
     if compare is not None:
         second = retarget(aligned(result.gait, compare), machine, result.body)
         actors.append(_ghost(second, feet, support, compare_title))
-    whole = all(len(leg.joints) == WHOLE for leg in machine.legs)
     return Play(
         robot=machine.robot,
         gait=result.gait,
         shown=shown,
         actors=tuple(actors),
         mounts=tuple(_mount(tree, sole) for sole in feet),
-        grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs) if whole else (),
+        grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs if leg.whole),
         tabs=_tabs(result),
         reference="joint by joint",
         top=highest(machine, tree) + HEADROOM,
@@ -83,7 +79,7 @@ def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion
         corners[:, k, :, :3, 3] = sole.corners @ np.swapaxes(T[:, k, :3, :3], -1, -2) + T[:, k, None, :3, 3]
     seen = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
     com = center_of_mass(machine.robot, result.q).position
-    return stood(result.gait, machine.robot.angles(result.q), result.base, seen, com, support)
+    return stood(result.gait, machine.robot.angles(result.q), result.base, seen, com, support, "The pelvis")
 
 
 def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
