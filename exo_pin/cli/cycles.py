@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import SIDES
@@ -42,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin import edit
     from exo_pin.formats import save_gait
     from exo_pin.gait import cycles
-    from exo_pin.kinematics import events
+    from exo_pin.kinematics import with_events
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
@@ -50,8 +49,7 @@ def run(args: argparse.Namespace) -> int:
     odd = outliers.facts(gait)  # before the filter spreads them
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
-    if not gait.events:
-        gait = dataclasses.replace(gait, events=events(robot, gait))
+    gait = with_events(robot, gait)
     cut = cycles(gait, args.side or side(gait))
     found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
     if args.json:

@@ -130,11 +130,11 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
 def _cycle(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin.cli import cycles
     from exo_pin.gait import cycles as cut
-    from exo_pin.kinematics import events
+    from exo_pin.kinematics import with_events
 
     if not args.cycle:
         return gait
-    known = gait if gait.events else dataclasses.replace(gait, events=events(robot, gait))
+    known = with_events(robot, gait)
     found = cut(known, cycles.side(known))
     return found.average(f"{gait.source}; mean of {cycles.count(found)}")
 

@@ -142,11 +142,9 @@ def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
 
 def with_events(robot: Robot, gait: Gait) -> tuple[Gait, str]:
     """The gait with events: its own, or those of its kinematics; and a note where there are none."""
-    if gait.events:
-        return gait, ""
-    from exo_pin.kinematics import events
+    from exo_pin import kinematics
 
     try:
-        return dataclasses.replace(gait, events=events(robot, gait)), ""
+        return kinematics.with_events(robot, gait), ""
     except GaitError as error:
         return gait, f"The motion tells no heel strikes and toe-offs: {error}"

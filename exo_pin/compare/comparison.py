@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from exo_pin.compare.motion import GRANTED, Conditions, Walk, best, projected, r
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
-from exo_pin.kinematics import events
+from exo_pin.kinematics import with_events
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +70,8 @@ def compare(
     """
     body = Body.from_stature() if body is None else body
     recorded = walk(gait, body)
-    if not gait.events:
-        recorded = dataclasses.replace(recorded, gait=_with_events(recorded))
+    with contextlib.suppress(GaitError):  # no cycles: phases, step width and clearance are then unknown
+        recorded = dataclasses.replace(recorded, gait=with_events(recorded.robot, gait))
     pairs = []
     for device in map(known.find, devices):
         robot = robot_for(device, body, conditions)
@@ -80,10 +81,3 @@ def compare(
     return Comparison(
         recorded, conditions, tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
     )
-
-
-def _with_events(recorded: Walk) -> Gait:
-    try:
-        return dataclasses.replace(recorded.gait, events=events(recorded.robot, recorded.gait))
-    except GaitError:  # no cycles in it: phases, step width and clearance are then unknown
-        return recorded.gait

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 from dataclasses import dataclass
 from typing import Any
@@ -19,7 +20,7 @@ from exo_pin.feasible.pelvis import dropped, slides
 from exo_pin.feasible.scale import amplitude
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.phases import PHASES, percent
-from exo_pin.kinematics import events
+from exo_pin.kinematics import with_events
 from exo_pin.robot import Robot, load_robot
 
 Array = npt.NDArray[np.float64]
@@ -190,8 +191,8 @@ def feasible(
     robot = load_robot(body, device=device)
     full = np.array(gait.q)
     done = dataclasses.replace(robot.to_gait(robot.from_gait(gait), gait), base=gait.base)
-    if not done.events:
-        done = _with_events(robot, done)
+    with contextlib.suppress(GaitError):  # no cycles in it: phases are then unknown
+        done = with_events(robot, done)
     asked = demands(robot, done, acceleration=acceleration, torques=torques) + slides(robot, gait)
     fitted = fits(robot, gait)
     belts = [fit for fit in fitted if fit.what == "treadmill" and fit.asked > 0.0]
@@ -221,13 +222,6 @@ def _reach(robot: Robot, gait: Gait, side: str) -> float:
     knee = np.append(gait.q[:, JOINTS.index(name)], straightest)
     length = np.sqrt(leg.thigh**2 + leg.shank**2 + 2 * leg.thigh * leg.shank * np.cos(knee))
     return float((length[-1] - length[:-1]).min())
-
-
-def _with_events(robot: Robot, gait: Gait) -> Gait:
-    try:
-        return dataclasses.replace(gait, events=events(robot, gait))
-    except GaitError:  # no cycles in it: phases are then unknown
-        return gait
 
 
 def number(value: float) -> float | None:

@@ -1,6 +1,6 @@
 """Forward kinematics: poses and motion of the links, the centre of mass, contact with the ground."""
 
-from exo_pin.kinematics.contact import Contacts, contacts, events
+from exo_pin.kinematics.contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
 from exo_pin.kinematics.walk import plate_events, spatiotemporal
@@ -18,4 +18,5 @@ __all__ = [
     "poses",
     "spatiotemporal",
     "velocities",
+    "with_events",
 ]

@@ -103,6 +103,15 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     return found
 
 
+def with_events(robot: Robot, gait: Gait) -> Gait:
+    """The gait with events: its own, or those of its kinematics.
+
+    Raises:
+        GaitError: It has none, and there are no gait cycles in the motion.
+    """
+    return gait if gait.events else dataclasses.replace(gait, events=events(robot, gait))
+
+
 def _check_strides(gait: Gait) -> None:
     """Raises `GaitError` if none of the strides of a walk counts as one."""
     spans = [span for side in SIDES for span in strides(gait, side)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from exo_pin.gait import Event, Gait, plates
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import strides, unrolled
-from exo_pin.kinematics.contact import events
+from exo_pin.kinematics.contact import with_events
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
@@ -41,8 +40,7 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
     Raises:
         GaitError: There are no gait cycles.
     """
-    if not gait.events:
-        gait = dataclasses.replace(gait, events=events(robot, gait))
+    gait = with_events(robot, gait)
     walk = unrolled(gait)
     spans = [span for side in SIDES for span in strides(walk, side)]
     counted = [span for span in spans if not span.why]
