@@ -13,10 +13,11 @@ from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
 from exo_pin.viewer.actor import flat_poses
-from exo_pin.viewer.world import TRACE_POINTS
+from exo_pin.viewer.world import TRACE_ERROR, TRACE_MOST
 
 SINGLE = 2e-7  # float32 keeps seven digits of numbers near 1
 MILLIMETRE = 1e-3
+VERTEX = 5e-6  # [m]: float32 metres, and the mean of a ring of them
 
 
 @pytest.fixture(scope="module")
@@ -133,11 +134,20 @@ def test_the_contact_sole_is_as_long_as_the_bodys_foot(robot, scene):
         assert shape["width"] == pytest.approx(robot.body.leg(side).foot_length, abs=0.02)
 
 
-def test_long_recordings_have_thin_traces(robot, gait):
-    scene = viewer.scene(robot, gait.resampled(3000))
+def test_long_recordings_have_thin_traces_that_follow_every_stride(robot, gait):
+    strides = Gait(np.arange(3000) * gait.duration / 100, np.tile(gait.q, (30, 1)))
+    scene = viewer.scene(robot, strides)
     (path,) = [c for c in scene.commands if c["path"].endswith("traces/left")]
     packed = path["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
-    assert len(packed.data) // 12 <= TRACE_POINTS * 8
+    vertices = np.frombuffer(packed.data, np.float32).reshape(-1, 8, 3)
+    assert len(vertices) <= TRACE_MOST
+    drawn = vertices.mean(axis=1)
+    feet = poses(robot, robot.from_gait(strides), FEET, base=shown_base(scene))[:, 0, :3, 3]
+    ends, starts = drawn[1:], drawn[:-1]
+    for foot in feet[::29]:
+        share = np.einsum("nk,nk->n", foot - starts, ends - starts) / np.sum((ends - starts) ** 2, axis=1)
+        nearest = starts + np.clip(share, 0, 1)[:, None] * (ends - starts)
+        assert np.linalg.norm(foot - nearest, axis=1).min() < TRACE_ERROR + VERTEX
 
 
 def test_foot_traces_run_through_the_feet(robot, gait, scene):

@@ -1,6 +1,8 @@
-"""Meshes made light: vertices clustered on a grid with their edges kept, normals smooth but for creases."""
+"""Meshes and paths made light: vertices clustered with edges kept, normals smooth but for creases."""
 
 from __future__ import annotations
+
+import heapq
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +17,49 @@ CREASE = np.cos(np.radians(38.0))
 
 STIFF = 1e-3
 """Directions in which a cell's planes say less than this share of the most are left at the mean."""
+
+
+def polyline(points: Array, error: float, most: int) -> Array:
+    """Points of a path that suffice to draw it, closely where it turns (Douglas and Peucker 1973).
+
+    The worst stretch is split first, so that a limited number of points goes where it helps most.
+
+    Args:
+        points: `(n, 3)`, at least two [m].
+        error: Every point left out is nearer than this to the line between its neighbours [m].
+        most: No more points than this, at least two, whatever the error.
+
+    Returns:
+        `(m, 3)`, a selection that holds both ends.
+    """
+    kept, stretches = [0, len(points) - 1], [_worst(points, 0, len(points) - 1)]
+    while stretches and len(kept) < most:
+        away, middle, first, last = heapq.heappop(stretches)
+        if -away <= error:
+            break
+        kept.append(middle)
+        heapq.heappush(stretches, _worst(points, first, middle))
+        heapq.heappush(stretches, _worst(points, middle, last))
+    selected: Array = points[np.sort(kept)]
+    return selected
+
+
+def _worst(points: Array, first: int, last: int) -> tuple[float, int, int, int]:
+    """The point of a stretch that lies furthest from the line between its ends, negative for the heap."""
+    if last - first < 2:
+        return (0.0, first, first, last)
+    away = _distances(points[first + 1 : last], points[first], points[last])
+    furthest = int(away.argmax())
+    return (-float(away[furthest]), first + 1 + furthest, first, last)
+
+
+def _distances(points: Array, start: Array, end: Array) -> Array:
+    """`(n,)` distances of points from the straight line between two others, its ends included."""
+    along, seen = end - start, points - start
+    length = float(along @ along)
+    share = np.clip(seen @ along / length, 0.0, 1.0) if length > 0 else np.zeros(len(points))
+    out: Array = np.linalg.norm(seen - share[:, None] * along, axis=1)
+    return out
 
 
 def thinned(vertices: Array, faces: Faces, cell: float) -> tuple[Array, Faces]:

@@ -16,6 +16,7 @@ from exo_pin.viewer.facts import Box, Marks
 from exo_pin.viewer.links import Linkage
 from exo_pin.viewer.motion import Motion
 from exo_pin.viewer.protocol import Command
+from exo_pin.viewer.thinning import polyline
 
 Array = NDArray[np.float64]
 
@@ -23,7 +24,13 @@ ROOT = "/exo_pin"
 """Every node of ours hangs below this one."""
 
 TRACE_POINTS = 400
-"""A foot's path is drawn through at most this many points."""
+"""A foot's path of no more samples than this is drawn through all of them."""
+
+TRACE_MOST = 2000
+"""Through no more points than this, however long the recording."""
+
+TRACE_ERROR = 1e-3
+"""A longer one is drawn so that it is nowhere wrong by more than this [m], if `TRACE_MOST` points suffice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,5 +116,4 @@ def _sole(robot: Robot, shown: Motion, side: str) -> tuple[tuple[float, float], 
 
 
 def _thinned(points: Array) -> Array:
-    step = -(-len(points) // TRACE_POINTS)
-    return points[::step]
+    return points if len(points) <= TRACE_POINTS else polyline(points, TRACE_ERROR, TRACE_MOST)
