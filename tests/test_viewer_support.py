@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from exo_pin import viewer
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, Gait, normative_gait
+from exo_pin.retarget import retarget
 from exo_pin.robot import load_robot
 from exo_pin.viewer import contact
 from exo_pin.viewer.motion import motion
@@ -145,3 +147,11 @@ def test_a_recording_is_carried(robot, shared):
 def test_an_unknown_support_is_refused_with_a_hint(robot):
     with pytest.raises(UnknownNameError, match="carried"):
         motion(robot, normative_gait(), "caried")
+
+
+def test_the_note_names_a_support_only_where_there_is_one(robot):
+    gait = normative_gait()
+    assert motion(robot, gait).support.note.startswith("Balance support: the pelvis is raised")
+    walk = viewer.retargeted(retarget(gait, "bolt"))
+    assert any(note.startswith("The pelvis is raised") for note in walk.facts.notes)
+    assert not any("Balance support" in note for note in walk.facts.notes)

@@ -13,7 +13,7 @@ from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
 from exo_pin.viewer import contact
-from exo_pin.viewer.support import Support, support
+from exo_pin.viewer.support import WHO, Support, support
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,9 @@ def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
     return stood(gait, robot.angles(q), given, T_pelvis, com_pelvis, style)
 
 
-def stood(gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array, style: str) -> Motion:
+def stood(
+    gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array, style: str, who: str = WHO
+) -> Motion:
     """Stand any walker on the ground.
 
     Args:
@@ -74,6 +76,7 @@ def stood(gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array
         T_pelvis: `(n, 10, 4, 4)` poses of `FEET` and `CORNERS` seen from there.
         com_pelvis: `(n, 3)` centre of mass seen from there [m].
         style: How the pelvis is carried, one of `support.STYLES`.
+        who: Whom the note names.
 
     Raises:
         UnknownNameError: There is no such style.
@@ -81,7 +84,7 @@ def stood(gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array
     corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = contact.from_events(gait)
     stance = known or contact.estimated(gait, contact.lowest_corners(corners))
-    carried = support(style, gait, given, corners, stance)
+    carried = support(style, gait, given, corners, stance, who)
     base = carried.base
     shown = base[:, None] @ T_pelvis
     return Motion(

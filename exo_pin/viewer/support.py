@@ -36,6 +36,9 @@ BANDWIDTH = 7.0
 DEEPEST = 0.003
 """No sole corner may sink further into the ground than this [m]."""
 
+WHO = "Balance support: the pelvis"
+"""Who is carried, in the exoskeleton's words; a humanoid has no support."""
+
 OVERGROUND = 0.6
 """A pelvis that travels further than this [m] walks through the room; else it walks on a treadmill."""
 
@@ -65,7 +68,9 @@ class Support:
     note: str
 
 
-def support(style: str, gait: Gait, base: Array, corners: Array, stance: Intervals) -> Support:
+def support(
+    style: str, gait: Gait, base: Array, corners: Array, stance: Intervals, who: str = WHO
+) -> Support:
     """Carry the pelvis.
 
     Args:
@@ -74,6 +79,7 @@ def support(style: str, gait: Gait, base: Array, corners: Array, stance: Interva
         base: `(n, 4, 4)` pose of the pelvis as given.
         corners: `(n, 8, 3)` positions of `CORNERS` with that base [m].
         stance: Side -> intervals on the ground.
+        who: What is carried, and by what: the note's first words.
 
     Raises:
         UnknownNameError: There is no such style.
@@ -86,7 +92,7 @@ def support(style: str, gait: Gait, base: Array, corners: Array, stance: Interva
     shown[:, :3, 3] += shift
     speed = 0.0 if overground else max(-float(_bearing_velocity(gait, feet)[:, 0].mean()), 0.0)
     numbers = _remains(gait, feet, stance)
-    return Support(shown, speed, overground, *numbers, f"{said} {_words(*numbers)}")
+    return Support(shown, speed, overground, *numbers, f"{who} {said} {_words(*numbers)}")
 
 
 def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
@@ -95,13 +101,13 @@ def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) ->
     rise = f"raised and lowered by {_mm(np.ptp(corners[..., 2].min(axis=1)))}"
     if overground:
         still = np.zeros(len(z))
-        said = f"Balance support: the pelvis is {rise} so that the soles stay on the ground."
+        said = f"is {rise} so that the soles stay on the ground."
         return np.stack([still, still, z], axis=1), said
     drift = _bearing_velocity(gait, corners)[:, :2]
     path = [_smooth(gait, _integral(gait, rate.mean() - rate)) for rate in drift.T]
     x, y = (line - line.mean() for line in path)
     said = (
-        f"Balance support: the pelvis is {rise}, moved fore and aft by {_mm(np.ptp(x))} and sideways by "
+        f"is {rise}, moved fore and aft by {_mm(np.ptp(x))} and sideways by "
         f"{_mm(np.ptp(y))}, so that the standing foot stays on the belt, which runs at "
         f"{round(-drift[:, 0].mean(), 2) + 0.0:.2f} m/s."
     )
@@ -113,7 +119,7 @@ def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> t
     low = [heights[side][samples(stance, side, time)].min(initial=np.inf) for side in SIDES]
     shift = -min(low) if np.isfinite(min(low)) else -float(corners[..., 2].min())
     said = (
-        f"Balance support: the pelvis's path is as given, shifted by {1000 * shift:+.1f} mm as a whole so "
+        f"moves as given, shifted by {1000 * shift:+.1f} mm up as a whole so "
         "that the lowest standing sole corner is on the ground."
     )
     return np.tile([0.0, 0.0, shift], (len(gait), 1)), said
