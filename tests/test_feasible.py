@@ -11,7 +11,7 @@ from exo_pin.cli import main
 from exo_pin.errors import UnknownNameError
 from exo_pin.feasible import feasible, nearest
 from exo_pin.feasible.scale import MOST, scaled
-from exo_pin.feasible.verdict import FASTEST, runs
+from exo_pin.feasible.verdict import FASTEST
 from exo_pin.formats import load_gait
 from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.robot import load_robot
@@ -189,13 +189,6 @@ def test_known_torques_count_and_unknown_ones_do_not():
     assert [(name, how) for name, how, _ in strong.failures] == [("left_knee_flexion", "too much torque")]
     assert np.array_equal(strong.failures[0][2], np.abs(10 * tau[:, KNEE]) > knee.effort)
     assert not any((strong.ok, strong.cadence_decides, strong.amplitude_decides))
-
-
-def test_runs_are_first_and_last_samples():
-    mask = np.array([1, 0, 1, 1, 0, 0, 1], dtype=bool)
-    assert runs(mask) == [(0, 0), (2, 3), (6, 6)]
-    assert runs(~mask) == [(1, 1), (4, 5)]
-    assert runs(mask[:0]) == []
 
 
 def test_the_command_says_where_and_under_what_conditions(capsys, tmp_path):

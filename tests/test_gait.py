@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait, normative_gait
+from exo_pin.gait.curves import runs
 from exo_pin.gait.heading import heading, turned
 from exo_pin.gait.rigid import about, angle_of
 
@@ -347,3 +348,10 @@ def test_a_turn_about_an_axis_has_its_angle_and_leaves_the_axis_where_it_is(rng)
     assert R @ axis == pytest.approx(np.tile(axis, (len(angles), 1)), abs=ROUNDING)
     assert angle_of(R) == pytest.approx(angles, abs=1e-15, rel=1e-4)  # an arc cosine loses 1e-8
     assert about(axis, 0.3) == pytest.approx(R[3], abs=ROUNDING)
+
+
+def test_runs_begin_and_end_where_marks_do():
+    mask = np.array([1, 0, 1, 1, 0, 0, 1], dtype=bool)
+    assert runs(mask) == [(0, 1), (2, 4), (6, 7)]
+    assert runs(~mask) == [(1, 2), (4, 6)]
+    assert runs(mask[:0]) == []

@@ -14,6 +14,7 @@ from exo_pin.edit.check import JOLT
 from exo_pin.edit.pelvis import drop, softened
 from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
+from exo_pin.gait.curves import runs
 from exo_pin.kinematics import events, poses
 from exo_pin.robot import Robot
 
@@ -184,8 +185,7 @@ def _swings(robot: Robot, gait: Gait, above: Array) -> dict[str, list[tuple[floa
 
 def _off_ground(time: Array, off: npt.NDArray[np.bool_]) -> list[tuple[float, float]]:
     """Spans of time in which a foot is off the ground, short ones left out."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], off, [False]]).astype(int))).reshape(-1, 2)
-    spans = ((float(time[a]), float(time[b - 1])) for a, b in edges)
+    spans = ((float(time[a]), float(time[b - 1])) for a, b in runs(off))
     return [(a, b) for a, b in spans if b - a > SHORTEST]
 
 

@@ -1,4 +1,4 @@
-"""Curves over time: derivatives and resampling of `(n, m)` samples, periodic or not."""
+"""Curves over time: derivatives and resampling of samples, periodic or not; runs of marked samples."""
 
 from __future__ import annotations
 
@@ -24,6 +24,12 @@ def derivative(time: Array, y: Array, order: int, period: float | None) -> Array
         `(n, m)` derivatives.
     """
     return _differences(time, y, order) if period is None else _spectral(y, order, period)
+
+
+def runs(marked: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First sample of each run of True in `(n,)`, and the one after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
+    return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
 
 
 def resampled(time: Array, y: Array, new: Array, periodic: bool) -> Array:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from exo_pin.errors import GaitError
 from exo_pin.gait.checks import check_time, frozen
+from exo_pin.gait.curves import runs
 
 Array = NDArray[np.float64]
 
@@ -54,9 +55,8 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = THRESHO
     check_time(t, periodic=False)
     if force.shape != t.shape or not np.isfinite(force).all():
         raise GaitError(f"vertical force: expected finite numbers ({len(t)},) [N], not {force.shape}")
-    runs = _runs(force > threshold)
-    runs = _joined(t, runs)
-    runs = [run for run in runs if t[run[1] - 1] - t[run[0]] >= SHORTEST]
+    loaded = _joined(t, runs(force > threshold))
+    loaded = [run for run in loaded if t[run[1] - 1] - t[run[0]] >= SHORTEST]
     return tuple(
         Contact(
             _crossing(t, force, start, threshold) if start else None,
@@ -64,20 +64,14 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = THRESHO
             start,
             stop,
         )
-        for start, stop in runs
+        for start, stop in loaded
     )
 
 
-def _runs(on: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Start and stop of each run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], on, [False]]).astype(int)))
-    return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
-
-
-def _joined(time: Array, runs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Runs with too short a gap between them are one."""
+def _joined(time: Array, spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Spans with too short a gap between them are one."""
     out: list[tuple[int, int]] = []
-    for start, stop in runs:
+    for start, stop in spans:
         if out and time[start] - time[out[-1][1] - 1] < SHORTEST:
             out[-1] = (out[-1][0], stop)
         else:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
+from exo_pin.gait.curves import runs
 
 Intervals = dict[str, tuple[tuple[float, float], ...]]
 """Side -> (from, to) [s] after the gait's first sample."""
@@ -71,6 +72,5 @@ def _between(gait: Gait, side: str) -> tuple[tuple[float, float], ...]:
 
 
 def _runs(gait: Gait, standing: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
-    edges = np.flatnonzero(np.diff(np.r_[False, standing, False].astype(int)))
     time = np.r_[gait.time - gait.time[0], gait.duration]
-    return tuple((float(time[a]), float(time[b])) for a, b in zip(edges[::2], edges[1::2], strict=True))
+    return tuple((float(time[a]), float(time[b])) for a, b in runs(standing))
