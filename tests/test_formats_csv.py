@@ -176,7 +176,7 @@ def test_what_is_no_text_file_is_refused(tmp_path):
     for path, match in (
         (binary, "zero bytes"),
         (latin, "latin.csv:2: not UTF-8"),
-        (tmp_path, "unknown kind of file ''; a gait file ends in .csv"),
+        (tmp_path, "a folder; a gait file ends in .csv"),
         (tmp_path / "none.csv", "no such file"),
         (tmp_path / "walk.xlsx", "unknown kind of file '.xlsx'"),
         (tmp_path / ("x" * 300 + ".csv"), "no such file|cannot be read"),

@@ -13,6 +13,7 @@ from exo_pin.formats import load_gait, save_gait
 from exo_pin.formats.pelvis import from_opensim, to_opensim, usual
 from exo_pin.formats.posecolumns import rotations
 from exo_pin.formats.presets import OPENSIM, PRESETS
+from exo_pin.formats.storage import read_storage
 from exo_pin.gait import Gait, normative_gait
 
 ROUND_TRIP = 1e-12  # [rad, m]
@@ -283,3 +284,31 @@ def test_the_recording_survives_every_format(shared, tmp_path):
         np.testing.assert_allclose(back.q, gait.q, atol=ROUND_TRIP)
         np.testing.assert_allclose(back.base, gait.base, atol=ROUND_TRIP)
         assert back.source == gait.source
+
+
+@pytest.mark.parametrize("name", OPENSIM)
+def test_a_file_is_written_for_the_family_of_its_model(path, name):
+    """Knee's sign and mid-hip are the preset's, and reading finds them in the header."""
+    walk = normative_gait("slow")
+    save_gait(walk, path, preset=name)
+    table = read_storage(path).table
+    knee = table.values[:, table.names.index("knee_angle_l")]
+    bent = np.degrees(walk.q[:, JOINTS.index("left_knee_flexion")])
+    np.testing.assert_allclose(knee, PRESETS[name].knee * bent, atol=1e-9)
+    back = load_gait(path)
+    np.testing.assert_allclose(back.q, walk.q, atol=ROUND_TRIP)
+    np.testing.assert_allclose(back.base, walk.base, atol=ROUND_TRIP)
+
+
+def test_only_opensims_files_and_presets_can_be_chosen_to_write(path):
+    with pytest.raises(FormatError, match=r"only \.mot and \.sto"):
+        save_gait(normative_gait("slow"), path.with_suffix(".csv"), preset="opensim-gait2392")
+    with pytest.raises(UnknownNameError, match="unknown preset 'vicon-pig'"):
+        save_gait(normative_gait("slow"), path, preset="vicon-pig")
+    assert not list(path.parent.iterdir())
+
+
+def test_radians_in_a_file_of_degrees_are_suspected(path):
+    values = degrees()
+    values[:, 1:] = np.radians(values[:, 1:])
+    refused(path, storage(values), "radians in a file of degrees?")

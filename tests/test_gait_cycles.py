@@ -286,3 +286,9 @@ def test_a_wrong_sign_is_doubted_with_its_reason(joint, change, reason):
 def test_angles_that_hardly_move_are_doubted():
     walk = normative_gait("free")
     assert any("units?" in text for text in doubts(Gait(walk.time, np.radians(walk.q))))
+
+
+def test_milliseconds_taken_for_seconds_are_doubted():
+    long = normative_gait("free").repeated(2)
+    assert not any("seconds" in text for text in doubts(Gait(long.time, long.q)))
+    assert any("is the time in seconds" in text for text in doubts(Gait(1000 * long.time, long.q)))

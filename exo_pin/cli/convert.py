@@ -10,6 +10,7 @@ _EXAMPLES = """examples:
   exo-pin convert walk.mot walk.csv
   exo-pin convert walk.mot walk.csv --model subject.osim    its axes, signs and hips
   exo-pin convert walk.csv walk.mot          the knee is written positive, and the header says so
+  exo-pin convert walk.csv walk.mot --as opensim-gait2392   ... negative, for models of that family
   exo-pin convert free normal.csv            a normal walk as a file
   exo-pin convert walk.trc walk.npz          markers by inverse kinematics on a body scaled to them
   exo-pin convert walk.csv walk.c3d --rate 100    C3D files need even samples
@@ -29,6 +30,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rate", type=float, metavar="HZ", help="sample the walk anew, at whole multiples of 1 / HZ"
     )
+    parser.add_argument(
+        "--as",
+        dest="written",
+        choices=("opensim-gait2392", "opensim-rajagopal"),
+        help="of a .mot or .sto: the family of the model it is for (default: opensim-rajagopal)",
+    )
     options.add_body(parser)
 
 
@@ -39,6 +46,6 @@ def run(args: argparse.Namespace) -> int:
     gait = options.gait_from(args, options.body_from(args))
     if args.rate is not None:
         gait = gait.sampled(args.rate)
-    save_gait(gait, args.output)
+    save_gait(gait, args.output, preset=args.written)
     print(f"{args.output}: {len(gait.time)} samples, {gait.duration:.3f} s")
     return 0

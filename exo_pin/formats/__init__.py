@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -12,7 +13,8 @@ from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, opensim, trajecto
 from exo_pin.formats.forces import load_forces
 from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
-from exo_pin.formats.presets import PRESETS
+from exo_pin.formats.presets import OPENSIM, PRESETS
+from exo_pin.formats.presets import preset as named
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.torques import load_torques
 from exo_pin.gait import Gait
@@ -134,13 +136,25 @@ def load_markers(path: str | Path) -> Markers:
     return MARKER_FORMATS[path.suffix.lower()](path)
 
 
-def save_gait(gait: Gait, path: str | Path) -> None:
+def save_gait(gait: Gait, path: str | Path, *, preset: str | None = None) -> None:
     """Write a walk to a file; its ending tells the format. All or nothing: never a half-written file.
 
+    Args:
+        gait: The walk.
+        path: The file.
+        preset: Of a .mot or .sto file: the model family it is for; `"opensim-gait2392"` writes the knee
+            negative in flexion, None is `"opensim-rajagopal"`.
+
     Raises:
-        FormatError: The ending is unknown or the file cannot be written.
+        FormatError: The ending is unknown, has no choice of preset, or the file cannot be written.
+        UnknownNameError: There is no such preset of OpenSim's models.
     """
     path = Path(path)
+    if preset is not None:
+        if path.suffix.lower() not in (".mot", ".sto"):
+            raise FormatError(path, "only .mot and .sto files are written for a model's preset")
+        opensim.write_gait(gait, path, habit=named(preset, OPENSIM))
+        return
     write = _format(path, {suffix: entry for suffix, entry in FORMATS.items() if entry.write}).write
     assert write is not None  # the formats that cannot be written are left out
     write(gait, path)
@@ -150,7 +164,6 @@ def _format(path: Path, known: Mapping[str, Format]) -> Format:
     if path.suffix.lower() in NO_MOTION:
         raise FormatError(path, NO_MOTION[path.suffix.lower()])
     if path.suffix.lower() not in known:
-        raise FormatError(
-            path, f"unknown kind of file {path.suffix!r}; a gait file ends in {', '.join(known)}"
-        )
+        what = "a folder" if os.path.isdir(path) else f"unknown kind of file {path.suffix!r}"
+        raise FormatError(path, f"{what}; a gait file ends in {', '.join(known)}")
     return known[path.suffix.lower()]

@@ -11,6 +11,9 @@ from exo_pin.files import read_lines, write_text
 from exo_pin.formats.notes import Note, Notes, split, to_lines
 from exo_pin.formats.table import Array, Table, missing, parse, rows_of_text
 
+MAPPING = "its column = our joint, --map COLUMN=JOINT"
+"""How a table of others is read."""
+
 
 def read_csv(
     path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]], *, separator: str = ","
@@ -69,9 +72,9 @@ def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: i
     if 2 * len(strange) > len(names):
         shown, ours = (", ".join(words[:4])[:200] for words in (names, known))
         why = f"its columns ({shown} ...) are not ours ({ours} ...)"
-        raise FormatError(path, f"{why}; a foreign table needs a mapping: its column = our joint", line=line)
+        raise FormatError(path, f"{why}; a foreign table needs a mapping: {MAPPING}", line=line)
     for name in strange:
         close = difflib.get_close_matches(name[:80], known, n=1)
-        foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: its column = our joint)"
+        foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: {MAPPING})"
         hint = f"did you mean {close[0]!r}?" if close else foreign
         raise FormatError(path, f"unknown column {name[:80]!r}; {hint}", line=line)

@@ -107,19 +107,25 @@ def _legs(values: Mapping[str, Array], chosen: Preset, means: Convention) -> Arr
     return q
 
 
-def write_gait(gait: Gait, path: Path) -> None:
-    """Write coordinates in degrees, knee positive in flexion, with events and source in header comments."""
+def write_gait(gait: Gait, path: Path, *, habit: Preset = WRITTEN) -> None:
+    """Write coordinates in degrees, with events and source in header comments.
+
+    The knee's sign and the mid-hip's place in the pelvis are the habit's: Rajagopal's (knee positive in
+    flexion), or another of `presets.OPENSIM` for a model of that family.
+    """
     names, parts = [TIME], [gait.time[:, None]]
     if gait.base is not None:
-        angles, translation = to_opensim(gait.base, MID_HIP)
+        angles, translation = to_opensim(gait.base, habit.mid_hip or MID_HIP)
         names += [*ANGLES, *TRANSLATIONS]
         parts += [np.degrees(angles), translation]
+    sign = "positive" if habit.knee > 0 else "negative"
     remarks = [
-        "Written by exo_pin: angles in degrees, translations in metres; knee_angle is positive in flexion.",
-        f"# preset: {WRITTEN.name}",
+        f"Written by exo_pin: angles in degrees, translations in metres; knee_angle is {sign} in flexion.",
+        f"# preset: {habit.name}",
         *to_lines(Notes(gait.events, gait.periodic, gait.source)),
     ]
-    values = np.hstack([*parts, np.degrees(gait.q)])
+    turned = [habit.knee if name in KNEES else 1 for name in LEGS]
+    values = np.hstack([*parts, np.degrees(gait.q) * turned])
     write_storage(path, "Coordinates", remarks, [*names, *LEGS], values, degrees=True)
 
 
@@ -198,8 +204,8 @@ def _in_degrees(storage: Storage, told: str | None = None) -> bool:
         return told == "deg"
     if said is None or said.lower() not in ("yes", "no"):
         found = "no inDegrees" if said is None else f"inDegrees={said[:20]!r}"
-        why = f"{found} in the header; expected inDegrees=yes or inDegrees=no, or that you give the units"
-        raise FormatError(path, why)
+        why = f"{found} in the header; expected inDegrees=yes or inDegrees=no"
+        raise FormatError(path, f"{why}, or that you give the units (deg or rad)")
     if told and (told == "deg") != (said.lower() == "yes"):
         raise FormatError(path, f"units are given as {told}, but the header has inDegrees={said}")
     return said.lower() == "yes"
@@ -217,7 +223,8 @@ def _sign(storage: Storage, values: Mapping[str, Array], means: Convention) -> t
     if found is None:
         raise FormatError(
             storage.table.path,
-            "the sign of the knee is not clear: knee_angle_l and _r bend less than 15 degrees or lie on both "
-            f"sides of 0; name the model with a preset ({', '.join(OPENSIM)}) or give its .osim file",
+            "the sign of the knee is not clear: knee_angle_l and _r bend less than 15 degrees (radians "
+            "in a file of degrees?) or lie on both sides of 0; name the model with a preset "
+            f"({', '.join(OPENSIM)}) or give its .osim file",
         )
     return found[0], f"inferred: {100 * found[1]:.0f} % of its excursion"

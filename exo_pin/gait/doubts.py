@@ -19,6 +19,9 @@ LONG = 0.3
 NOTHING = np.radians(3.0)
 """In a walk some joint moves more than this [rad]; less is standing, or degrees converted twice."""
 
+SLOWEST = 0.2
+"""No recording of a walk has its samples further apart than this [s]: 5 Hz, a few per step."""
+
 RANGES = {
     "hip_flexion": (-45.0, 130.0),
     "hip_adduction": (-50.0, 45.0),
@@ -40,8 +43,13 @@ def doubts(gait: Gait) -> tuple[str, ...]:
         moved = np.degrees(np.ptp(gait.q, axis=0).max())
         reasons.append(f"no joint moves more than {moved:.1f} deg: standing, or units?")
     reasons += [_impossible(gait.q[:, k], joint) for k, joint in enumerate(JOINTS)]
-    reasons.append(_swing(gait.q))
+    reasons += [_swing(gait.q), _sparse(gait.time)]
     return tuple(reason for reason in reasons if reason)
+
+
+def _sparse(time: Array) -> str:
+    apart = float(np.median(np.diff(time)))
+    return f"samples are {apart:.3g} s apart: is the time in seconds?" if apart > SLOWEST else ""
 
 
 def _backwards(q: Array, side: str) -> str:
