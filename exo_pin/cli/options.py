@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from exo_pin.robot import Robot
 
 
+PRESETS = ("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig")
+"""Those of `exo_pin.formats`, which takes time to import."""
+
+
 def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -> None:
     """GAIT: a file, or the name of one of the normative speeds."""
     what = (
@@ -30,12 +34,13 @@ def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -
         parser.add_argument(
             "gait", metavar="GAIT", nargs="?", default=default, help=f"{what} (default: {default})"
         )
-    parser.add_argument(
-        "--preset",
-        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
-        help="sign convention (and names) of a file that does not tell it",
-    )
+    add_preset(parser, "sign convention (and names) of a file that does not tell it")
     trials.add(parser)
+
+
+def add_preset(parser: argparse._ActionsContainer, what: str) -> None:
+    """The sign convention of a laboratory."""
+    parser.add_argument("--preset", choices=PRESETS, help=what)
 
 
 def gait_from(args: argparse.Namespace, body: Body) -> Gait:

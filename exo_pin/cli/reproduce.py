@@ -38,11 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gait", metavar="FILE", help="a recorded walk to show in Fig. 4 and to recover in Fig. 6"
     )
-    parser.add_argument(
-        "--preset",
-        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
-        help="of that file",
-    )
+    options.add_preset(parser, "sign convention of that file")
     parser.add_argument(
         "--no-render", action="store_true", help="line drawings instead of the browser's pictures"
     )

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from exo_pin.anatomy import Body
-from exo_pin.cli import show
+from exo_pin.cli import options, show
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -80,11 +80,7 @@ def _configure_plan(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="every recording in this folder and those below, instead of the normal walk (unless --speeds)",
     )
-    plan.add_argument(
-        "--preset",
-        choices=("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"),
-        help="sign convention of recordings that do not tell it",
-    )
+    options.add_preset(plan, "sign convention of recordings that do not tell it")
     plan.add_argument(
         "--body",
         metavar="FILE",
