@@ -110,9 +110,7 @@ class Loss:
     @cached_property
     def com_shift(self) -> Array:
         """The centre of mass less the recorded walk's (n, 3) [m]: forward, left, up in the mean heading."""
-        forward = heading(self.walk)
-        axes = np.array([[*forward, 0.0], [-forward[1], forward[0], 0.0], [0.0, 0.0, 1.0]])
-        return np.asarray((self.motion.com - self.walk.com) @ axes.T)
+        return np.asarray((self.motion.com - self.walk.com) @ axes(self.walk).T)
 
     @property
     def com_error(self) -> float:
@@ -157,10 +155,11 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
-def heading(recorded: Walk) -> Array:
-    """Mean direction in which the pelvis looks, on the ground (2,)."""
+def axes(recorded: Walk) -> Array:
+    """Forward, left and up (3, 3) in the world, by the mean direction in which the pelvis looks."""
     forward = recorded.base[:, :2, 0].mean(axis=0)
-    return np.asarray(forward / np.linalg.norm(forward))
+    c, s = forward / np.linalg.norm(forward)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def step_width(recorded: Walk, feet: Array) -> float:
@@ -168,8 +167,7 @@ def step_width(recorded: Walk, feet: Array) -> float:
     strikes = [e.time for e in recorded.gait.events if e.kind == "heel_strike"]
     if not strikes:
         return float("nan")
-    forward = heading(recorded)
-    across = np.array([-forward[1], forward[0]])
+    across = axes(recorded)[1, :2]
     rows = [int(np.argmin(np.abs(recorded.gait.time - t))) for t in strikes]
     return float(np.mean((feet[rows, 0, :2, 3] - feet[rows, 1, :2, 3]) @ across))
 

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.compare import Comparison, Loss, Walk
-from exo_pin.compare.loss import heading
+from exo_pin.compare.loss import axes
 from exo_pin.report import palette, panels, skeleton, svg
 from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
@@ -54,12 +54,12 @@ def ranking(compared: Comparison) -> Drawing:
 def sticks(loss: Loss) -> Drawing:
     """Five moments of a device's walk from the left, one from the front; the recorded walk in grey."""
     walk, width = loss.walk, 520.0
-    rows, axes = skeleton.moments(walk.gait)[0][::2], _axes(walk)
+    rows = skeleton.moments(walk.gait)[0][::2]
     lines: list[tuple[Array, str, float]] = []
     for gait, shadow in ((walk.gait, True), (loss.motion.gait, False)):
         for side in reversed(SIDES):  # the left leg, nearer to the eye, is drawn last
             points = skeleton.chain(walk.robot, gait, side)[rows] - walk.base[rows, None, :3, 3]
-            points = points @ axes.T
+            points = points @ axes(walk).T
             front = points[_MOMENTS // 2][:, [1, 2]] + [_APART * (_MOMENTS - 0.1), 0.0]
             moments = [p[:, [0, 2]] + [_APART * k, 0.0] for k, p in enumerate(points)]
             look = (_SHADOW, 5.0) if shadow else (svg.COLOURS[side], 2.0)
@@ -113,28 +113,22 @@ def joints(compared: Comparison, side: str) -> tuple[Drawing, ...]:
 
 def centre_of_mass(compared: Comparison) -> tuple[Drawing, ...]:
     """Forward, left, up about the recorded walk's even travel, every device before it (black) [mm]."""
-    axes, travel = _axes(compared.walk), _travel(compared.walk)
+    along, travel = axes(compared.walk), _travel(compared.walk)
     drawings = []
     for k, name in enumerate(("forward", "to the left", "up")):
         series = {
-            loss.device.name: 1e3 * (loss.motion.com @ axes[k] - travel[:, k]) for loss in compared.best
+            loss.device.name: 1e3 * (loss.motion.com @ along[k] - travel[:, k]) for loss in compared.best
         }
-        recorded = 1e3 * (compared.walk.com @ axes[k] - travel[:, k])
+        recorded = 1e3 * (compared.walk.com @ along[k] - travel[:, k])
         title = f"Centre of mass, {name} [mm]"
         name = f"com_{'xyz'[k]}"
         drawings.append(_drawn(compared, "left", name, title, series, "mm", recorded=recorded, least=10.0))
     return tuple(drawings)
 
 
-def _axes(walk: Walk) -> Array:
-    """Forward, left and up (3, 3) in the world, by the mean heading of the pelvis."""
-    c, s = heading(walk)
-    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
 def _travel(walk: Walk) -> Array:
     """The even travel of the recorded centre of mass (n, 3), along forward, left and up [m]."""
-    along = walk.com @ _axes(walk).T
+    along = walk.com @ axes(walk).T
     travel = np.tile(along.mean(axis=0), (len(along), 1))
     if not walk.gait.periodic:
         time = walk.gait.time - walk.gait.time.mean()
