@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from exo_pin.cli import plates
 from exo_pin.errors import DescriptionError, FormatError
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
+    plates.add(group)
 
 
 def mapping(args: argparse.Namespace) -> dict[str, str]:
@@ -90,7 +92,7 @@ def found(args: argparse.Namespace) -> Reconstruction | None:
 def is_trial(path: Path, *, told: bool = False) -> bool:
     """Whether a file's walk must be made of its markers; `told`: the user wants it from those of a C3D."""
     kind = path.suffix.lower()
-    return kind == ".trc" or (kind == ".c3d" and (told or not _has_angles(path)))
+    return kind in (".trc", ".c3d") and (told or _is_markers(path))
 
 
 def walk(path: Path) -> Gait:
@@ -161,8 +163,7 @@ def _solved(
 
 
 @lru_cache(maxsize=2)
-def _has_angles(path: Path) -> bool:
-    from exo_pin.formats import load_markers
-    from exo_pin.formats.c3d import has_angles
+def _is_markers(path: Path) -> bool:
+    from exo_pin.formats import is_markers
 
-    return has_angles(load_markers(path))
+    return is_markers(path)

@@ -28,6 +28,7 @@ __all__ = [
     "Plate",
     "Poses",
     "Reading",
+    "is_markers",
     "load_forces",
     "load_gait",
     "load_markers",
@@ -134,6 +135,16 @@ def load_markers(path: str | Path) -> Markers:
         known = ", ".join(MARKER_FORMATS)
         raise FormatError(path, f"unknown kind of file {path.suffix!r}; a marker trial ends in {known}")
     return MARKER_FORMATS[path.suffix.lower()](path)
+
+
+def is_markers(path: str | Path) -> bool:
+    """Whether a file holds markers and no angles of its own: its walk is made by `exo_pin.markers.load_walk`.
+
+    Raises:
+        FormatError: A file that may hold both cannot be read.
+    """
+    kind = Path(path).suffix.lower()
+    return kind in MARKER_FORMATS and (kind not in FORMATS or not c3d.has_angles(load_markers(path)))
 
 
 def save_gait(gait: Gait, path: str | Path, *, preset: str | None = None) -> None:

@@ -18,7 +18,7 @@ from exo_pin.description import sources
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
-from exo_pin.formats import FORMATS, MARKER_FORMATS, load_gait, load_markers
+from exo_pin.formats import is_markers, load_gait
 from exo_pin.gait import Gait, doubts, normative_gait
 from exo_pin.study.sheet import MOTIONS, Row
 
@@ -113,21 +113,12 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     if not case.path:
         body = case.body or Body.from_stature()
         return normative_gait(case.gait, leg_length=body.leg_length), body
-    if _is_markers(Path(case.path)):
+    if is_markers(case.path):
         from exo_pin.markers import load_walk
 
         trial = load_walk(case.path)
         return trial.gait, case.body or trial.body
     return load_gait(case.path, preset=case.preset), case.body or Body.from_stature()
-
-
-def _is_markers(path: Path) -> bool:
-    """Whether a file holds markers and no angles of its own."""
-    if path.suffix.lower() not in MARKER_FORMATS:
-        return False
-    from exo_pin.formats.c3d import has_angles
-
-    return path.suffix.lower() not in FORMATS or not has_angles(load_markers(path))
 
 
 def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[Row]:
