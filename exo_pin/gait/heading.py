@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from exo_pin.gait.rigid import about
 from exo_pin.gait.walk import Gait
 
 STRAIGHT = 0.5
@@ -28,5 +29,5 @@ def turned(gait: Gait, angle: float) -> Gait:
     if gait.base is None:
         return gait
     T = np.eye(4)
-    T[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    T[:3, :3] = about((0.0, 0.0, 1.0), angle)
     return replace(gait, base=T @ gait.base)

@@ -10,6 +10,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from exo_pin.gait import Gait
+from exo_pin.gait.rigid import about
 from exo_pin.robot import Robot
 from exo_pin.viewer.facts import Chain, Group
 from exo_pin.viewer.links import Linkage, linkage
@@ -77,7 +78,14 @@ def aligned(gait: Gait, other: Gait) -> Gait:
     even = other.resampled(max(round(other.duration / step) + 1, 2))
     rows = np.minimum(np.arange(n), len(even) - 1)
     base = None if even.base is None else _brought(gait, even.base[rows])
-    return Gait(gait.time, even.q[rows], base=base, periodic=gait.periodic, source=other.source)
+    return Gait(gait.time, even.q[rows], base=base, source=other.source)
+
+
+def in_step(gait: Gait, other: Gait) -> str:
+    """How `aligned` has laid another gait over the first, in words."""
+    if gait.periodic and other.periodic:
+        return "The ghost's cycle is laid over the walk's, from left heel strike to left heel strike."
+    return "The ghost starts together with the walk, whatever its phase, and waits at its end."
 
 
 def _brought(gait: Gait, base: Array) -> Array:
@@ -85,7 +93,7 @@ def _brought(gait: Gait, base: Array) -> Array:
     own = np.eye(4)[None] if gait.base is None else gait.base
     turn = np.angle(_heading(own) * np.conj(_heading(base)))
     T = np.eye(4)
-    T[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    T[:3, :3] = about((0.0, 0.0, 1.0), float(turn))
     T[:2, 3] = own[0, :2, 3] - T[:2, :2] @ base[0, :2, 3]
     return np.asarray(T @ base)
 
