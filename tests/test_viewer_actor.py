@@ -14,6 +14,8 @@ from exo_pin.viewer.actor import aligned
 
 SAME = 1e-9  # resampling a band-limited cycle on its own samples changes rounding only
 
+FLOAT32 = 1e-6  # the page gets seven digits
+
 
 @pytest.fixture(scope="module")
 def gait():
@@ -41,23 +43,35 @@ def test_a_shorter_recording_waits_at_its_end(gait):
     assert (fitted.q[20:] == fitted.q[-1]).all()
 
 
+def test_a_recording_beside_a_cycle_is_not_bent_to_close(gait):
+    half = Gait(np.arange(60) * 0.01, gait.q[:60])
+    fitted, fastest = aligned(gait, half), np.abs(half.dq).max()
+    assert np.abs(fitted.dq).max() < 1.1 * fastest  # its end and its beginning are far apart
+    notes = viewer.scene(load_robot(), gait, compare=half).facts.notes
+    assert any("waits at its end" in note for note in notes)
+
+
 def test_a_ghost_has_its_own_chain_and_switch(gait):
     scene = viewer.scene(load_robot(), gait, compare=normative_gait("slow"), compare_title="slow")
     ghost = next(chain for chain in scene.facts.chains if chain.name == "ghost")
     assert scene.arrays["ghost_q"].shape == scene.arrays["q"].shape
     assert not np.allclose(scene.arrays["ghost_q"], scene.arrays["q"])
     assert "Ghost: slow" in [group.title for group in scene.facts.groups]
-    assert scene.facts.reference == "slow"
+    assert scene.facts.compared == "slow"
+    assert scene.facts.reference == ""
     exo = scene.facts.chains[0]
     assert set(ghost.links) == set(exo.links)
     assert not set(ghost.links.values()) & set(exo.links.values())
 
 
-def test_an_explicit_reference_keeps_the_dashes(gait):
-    facts = viewer.scene(
-        load_robot(), gait, compare=normative_gait("slow"), reference=gait, reference_title="measured"
-    ).facts
-    assert facts.reference == "measured"
+def test_the_second_walks_curves_are_dotted_beside_the_dashed_reference(gait):
+    slow = normative_gait("slow")
+    scene = viewer.scene(load_robot(), gait, compare=slow, reference=gait, reference_title="measured")
+    assert (scene.facts.reference, scene.facts.compared) == ("measured", "compared")
+    angles, speeds = scene.facts.plots
+    assert scene.arrays[angles.compared] == pytest.approx(aligned(gait, slow).q, abs=FLOAT32)
+    assert scene.arrays[angles.reference] == pytest.approx(gait.q, abs=FLOAT32)
+    assert scene.arrays[speeds.compared].shape == scene.arrays[speeds.values].shape
 
 
 def test_a_walk_recorded_elsewhere_is_brought_beside_the_first(gait):

@@ -24,7 +24,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--speed", type=float, default=1.0, metavar="F", help="playback speed 0.1 .. 2 (default: 1)"
     )
-    parser.add_argument("--compare", metavar="GAIT", help="a second walk, shown as a ghost beside the first")
+    parser.add_argument(
+        "--compare", metavar="GAIT", help="a second walk: a ghost beside the first, its curves dotted"
+    )
     torques.add(parser)
     parser.add_argument(
         "--support",

@@ -17,7 +17,7 @@ from exo_pin.gait.heading import heading, turned
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
-from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost
+from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost, in_step
 from exo_pin.viewer.cycles import cycles
 from exo_pin.viewer.facts import Facts, Grip, Group, Marks, Scene
 from exo_pin.viewer.humanoid import humanoid
@@ -57,7 +57,7 @@ def scene(
         gait: The motion to show, e.g. what inverse kinematics recovered.
         reference: Curves to draw dashed beside it, e.g. the source's.
         reference_title: What the dashed curves are.
-        compare: A second walk, shown as a ghost (and dashed, if there is no reference).
+        compare: A second walk, shown as a ghost, its curves dotted.
         compare_title: What the ghost is.
         torques: Joint torques on the walk's clock, for a further tab of plots.
         title: Heading of the page.
@@ -87,11 +87,12 @@ def scene(
     shown = motion(robot, gait, support)
     exo = linkage(robot.urdf, f"{ROOT}/exo")
     actors = [exoskeleton(robot, shown, exo)]
+    tabs = curves.of_gait(robot, gait, reference, torques)
     if compare is not None:
         second = aligned(gait, compare)
         actors.append(ghost(robot, second, support, f"{ROOT}/ghost", compare_title))
-        if reference is None:
-            reference, reference_title = second, compare_title
+        tabs = curves.beside(tabs, curves.of_gait(robot, second))
+        faced.append(in_step(gait, compare))
     top = _BACKPACK
     if wearer and robot.body is not None and robot.body.wearer:
         actors.append(person(robot.body, exo.links, f"{ROOT}/wearer", gait, shown.base))
@@ -103,8 +104,9 @@ def scene(
         actors=tuple(actors),
         mounts=mounts(robot, shown, exo),
         grips=tuple(Grip(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in exo.links),
-        tabs=curves.of_gait(robot, gait, reference, torques),
+        tabs=tabs,
         reference="" if reference is None else reference_title,
+        compared="" if compare is None else compare_title,
         top=top,
         notes=(*faced, *_notes(exo, actors), *curves.notes(torques)),
     )
@@ -169,6 +171,7 @@ def _compiled(play: Play, title: str, notes: Iterable[str], speed: float) -> Sce
         stance=shown.stance,
         contact="contact (estimated)" if shown.estimated else "foot contact",
         reference=play.reference,
+        compared=play.compared,
         chains=tuple(actor.chain for actor in actors),
         grips=play.grips,
         plots=curves.groups(play.tabs),

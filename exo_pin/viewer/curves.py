@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -56,6 +56,7 @@ class Tab:
         unit: How values are shown.
         reference: `(m, J)` dashed curves on a time of their own, or None.
         reference_time: `(m,)` from 0 [s].
+        compared: `(n, J)` dotted curves of a second walk on the scene's time, or None.
     """
 
     title: str
@@ -67,6 +68,7 @@ class Tab:
     unit: Unit
     reference: Array | None = None
     reference_time: Array | None = None
+    compared: Array | None = None
 
     @property
     def dashed(self) -> str:
@@ -74,12 +76,19 @@ class Tab:
         return "" if self.reference is None else f"{self.name}_reference"
 
     @property
+    def dotted(self) -> str:
+        """Name of the dotted curves' array; empty: there are none."""
+        return "" if self.compared is None else f"{self.name}_compared"
+
+    @property
     def arrays(self) -> dict[str, Array]:
         """Its samples by name."""
-        if self.reference is None or self.reference_time is None:
-            return {self.name: self.values}
-        rows = {self.dashed: self.reference, f"{self.dashed}_time": self.reference_time}
-        return {self.name: self.values, **rows}
+        rows = {self.name: self.values}
+        if self.reference is not None and self.reference_time is not None:
+            rows |= {self.dashed: self.reference, f"{self.dashed}_time": self.reference_time}
+        if self.compared is not None:
+            rows[self.dotted] = self.compared
+        return rows
 
 
 def of_gait(
@@ -137,9 +146,15 @@ def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None =
     )
 
 
+def beside(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, ...]:
+    """Tabs with the curves of a second walk dotted in those that both have."""
+    values = {tab.name: tab.values for tab in second}
+    return tuple(replace(tab, compared=values.get(tab.name)) for tab in tabs)
+
+
 def groups(tabs: Iterable[Tab]) -> tuple[PlotGroup, ...]:
     """What the page is told of the tabs: one plot for left and right of a joint."""
-    return tuple(PlotGroup(tab.title, tab.name, tab.dashed, _plots(tab)) for tab in tabs)
+    return tuple(PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab)) for tab in tabs)
 
 
 def arrays(tabs: Iterable[Tab]) -> dict[str, Array]:

@@ -79,11 +79,12 @@ class Plot:
 
 @dataclass(frozen=True)
 class PlotGroup:
-    """One tab of plots: the arrays that it shows (solid and dashed) and its plots."""
+    """One tab of plots: the arrays that it shows (solid, dashed, dotted) and its plots."""
 
     title: str
     values: str
     reference: str
+    compared: str
     plots: tuple[Plot, ...]
 
 
@@ -147,6 +148,7 @@ class Facts:
         stance: Side -> intervals on the ground.
         contact: How contact was found, for the legend.
         reference: What the dashed curves are, or empty.
+        compared: What the dotted curves are, or empty.
         chains: The figures.
         grips: The feet of the first figure that can be dragged.
         plots: The tabs of plots.
@@ -170,6 +172,7 @@ class Facts:
     stance: Mapping[str, tuple[Interval, ...]]
     contact: str
     reference: str
+    compared: str
     chains: tuple[Chain, ...]
     grips: tuple[Grip, ...]
     plots: tuple[PlotGroup, ...]

@@ -13,7 +13,7 @@ from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Machine, Retargeted, retarget
 from exo_pin.viewer import curves
-from exo_pin.viewer.actor import GHOST, Actor, aligned, samples
+from exo_pin.viewer.actor import GHOST, Actor, aligned, in_step, samples
 from exo_pin.viewer.facts import Chain, Grip, Group
 from exo_pin.viewer.links import Linkage
 from exo_pin.viewer.looks import bare, dressed, highest, plate
@@ -54,9 +54,12 @@ def humanoid(
     feet = soles(machine, tree.shapes)
     shown = _motion(result, feet, support)
     actors = [_actor(result, shown, tree, feet)]
+    tabs, notes = _tabs(result), _notes(result, meshes, tree)
     if compare is not None:
         second = retarget(aligned(result.gait, compare), machine, result.body)
         actors.append(_ghost(second, feet, support, compare_title))
+        tabs = curves.beside(tabs, _tabs(second))
+        notes.append(in_step(result.gait, compare))
     return Play(
         robot=machine.robot,
         gait=result.gait,
@@ -64,10 +67,11 @@ def humanoid(
         actors=tuple(actors),
         mounts=tuple(_mount(tree, sole) for sole in feet),
         grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs if leg.whole),
-        tabs=_tabs(result),
+        tabs=tabs,
         reference="joint by joint",
+        compared="" if compare is None else compare_title,
         top=highest(machine, tree) + HEADROOM,
-        notes=(*_notes(result, meshes, tree), *_dips(shown, feet)),
+        notes=(*notes, *_dips(shown, feet)),
     )
 
 

@@ -26,6 +26,7 @@ class Play:
         grips: Feet that can be taken by the hand.
         tabs: The curves.
         reference: What the dashed curves are, or empty.
+        compared: What the dotted curves are, or empty.
         top: How far the picture reaches above the robot's root [m].
         notes: What to know about the picture, in sentences.
     """
@@ -38,5 +39,6 @@ class Play:
     grips: tuple[Grip, ...]
     tabs: tuple[Tab, ...]
     reference: str
+    compared: str
     top: float
     notes: tuple[str, ...]

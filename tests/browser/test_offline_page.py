@@ -391,6 +391,12 @@ def test_the_ghost_walks_on_its_own_angles(browser, robot, gait, tmp_path):
     )
     assert knees[1] == pytest.approx(0.7 * knees[0], rel=1e-4)
     assert "weaker" in browser.evaluate("document.getElementById('toggles').textContent")
+    assert "weaker" in browser.evaluate("document.getElementById('dotted').innerText")
+    knee = "exo.plots.plots[1]"
+    same = f"{knee}.source.reference = {knee}.source.compared, {knee}.source.compared = ''"
+    painted = f"({knee}.paint(), {knee}.backdrop.toDataURL())"
+    assert browser.evaluate(f"{painted} !== ({same}, {painted})"), "dots, not dashes"
+    assert browser.evaluate(f"{painted} !== ({knee}.source.reference = '', {painted})"), "a curve is drawn"
     assert browser.console == []
 
 

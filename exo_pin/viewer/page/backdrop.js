@@ -1,6 +1,7 @@
 /* Backdrop: what of a plot stands still while the cursor moves: stance, cycles, axes, limits, curves. */
 
-const DASH = [4, 3];
+const DASH = [4, 3]; // of the reference
+const DOTS = [1.4, 2.6]; // of a second walk
 const FINE = 2; // more samples than this for a pixel are drawn as their lowest and highest
 
 class Backdrop {
@@ -24,6 +25,7 @@ class Backdrop {
     pen.clip();
     this.strikes(pen);
     for (const series of spec.series) this.limits(pen, series);
+    for (const series of spec.series) this.curve(pen, this.source.compared, series, DOTS);
     for (const series of spec.series) this.curve(pen, this.source.reference, series, DASH);
     for (const series of spec.series) this.curve(pen, this.source.values, series, []);
     pen.restore();

@@ -66,8 +66,8 @@ class Player {
     this.part("notes").replaceChildren(
       ...header.notes.map((note) => Object.assign(document.createElement("p"), { textContent: note })),
     );
-    this.part("dashed").hidden = !header.reference;
     this.part("dashed-title").textContent = header.reference;
+    this.part("dotted-title").textContent = header.compared;
     this.part("contact-title").textContent = header.contact;
   }
 

@@ -12,7 +12,7 @@ function palette() {
 }
 
 class Plot {
-  /** source: {values, reference}, names of arrays; window: the stretch of time that all plots show. */
+  /** source: {values, reference, compared}, names of arrays; window: the stretch of time that all plots show. */
   constructor(spec, motion, source, window, holder) {
     Object.assign(this, { spec, motion, source, window });
     this.canvas = document.createElement("canvas");
@@ -27,7 +27,8 @@ class Plot {
   /** Values shown: the data's own range, widened to a limit that lies near. */
   range() {
     const { motion, source, spec } = this;
-    const tables = [motion.arrays[source.values], motion.arrays[source.reference]].filter((table) => table);
+    const names = [source.values, source.reference, source.compared];
+    const tables = names.map((name) => motion.arrays[name]).filter((table) => table);
     const ranges = spec.series.map((series) => columnRange(tables, series.column));
     const low = Math.min(...ranges.map((r) => r[0])) * spec.factor;
     const high = Math.max(...ranges.map((r) => r[1])) * spec.factor;

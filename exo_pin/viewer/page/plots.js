@@ -48,6 +48,7 @@ class Plots {
     this.tellWindow();
     if (!group) return;
     document.getElementById("dashed").hidden = !group.reference;
+    document.getElementById("dotted").hidden = !group.compared;
     this.holder.replaceChildren();
     this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.window, this.holder));
     for (const plot of this.plots) this.listen(plot);
