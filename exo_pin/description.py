@@ -128,10 +128,9 @@ def _by_xacro(values: tuple[tuple[str, str], ...], name: str) -> str:
             document = xacro.process_file(str(sources() / _MAIN), mappings=dict(values))
     except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
         raise DescriptionError(f"xacro cannot expand {_MAIN}: {error}") from error
-    document.documentElement.setAttribute("name", name)  # xacro reads it before it knows the arguments
-    text: str = document.documentElement.toprettyxml(
-        indent="  "
-    )  # the element: the banner holds a local path
+    element = document.documentElement  # not the document, whose banner holds a local path
+    element.setAttribute("name", name)  # xacro reads it before it knows the arguments
+    text: str = element.toprettyxml(indent="  ")
     lines = (line for line in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).splitlines() if line.strip())
     return '<?xml version="1.0"?>\n' + "\n".join(lines) + "\n"
 

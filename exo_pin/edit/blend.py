@@ -94,9 +94,8 @@ def transitioned(
 
     def clock(phase: Array) -> Array:
         s = np.clip((phase - before) / over, 0, 1)
-        grown = over * s**4 * (2.5 - 3 * s + s**2) + np.maximum(
-            phase - before - over, 0
-        )  # integral of the share
+        beyond = np.maximum(phase - before - over, 0)
+        grown = over * s**4 * (2.5 - 3 * s + s**2) + beyond  # integral of the share
         return np.asarray(T[0] * phase + (T[1] - T[0]) * grown)
 
     end = float(clock(np.array([total]))[0])

@@ -154,9 +154,8 @@ def _along(walk: Gait, time: Array, phase: Array) -> Gait:
     if walk.base is not None:
         base = nearest_pose(CubicSpline(walk.time, walk.base)(phase))
     inside = [event for event in walk.events if phase[0] <= event.time <= phase[-1]]
-    grown = np.maximum.accumulate(
-        phase + 1e-12 * np.arange(len(phase))
-    )  # strictly, so it can be turned around
+    strictly = 1e-12 * np.arange(len(phase))  # so that it can be turned around
+    grown = np.maximum.accumulate(phase + strictly)
     events = [dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside]
     return Gait(time, q, base=base, events=events, source=walk.source)
 

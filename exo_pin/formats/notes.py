@@ -115,6 +115,5 @@ def _text(path: Path, note: Note, value: str) -> str:
         text = json.loads(value)
     except ValueError as error:
         raise FormatError(path, f"{note.key}: the quoted text is malformed", line=note.line) from error
-    return (
-        str(text).encode("utf-8", "replace").decode("utf-8")
-    )  # no half characters, which nobody could print
+    # no half characters, which nobody could print
+    return str(text).encode("utf-8", "replace").decode("utf-8")

@@ -113,9 +113,8 @@ def _joint_elements(model: Element) -> Iterator[tuple[Element, str]]:
 
 
 def _known(element: Element) -> bool:
-    turned_round = (
-        element.findtext("reverse") or ""
-    ).strip() == "true"  # version 3: child and parent swapped
+    # version 3 may swap child and parent
+    turned_round = (element.findtext("reverse") or "").strip() == "true"
     return (element.tag in FIXED or element.tag == "CustomJoint") and not turned_round
 
 

@@ -104,12 +104,11 @@ def _kept(events: list[Event], steps: list[Step], good: list[Step]) -> tuple[Eve
     usual = float(np.median([step.end - step.strike for step in good]))
     sure = {(step.side, t) for step in good for t in (step.strike, step.off, step.end)}
     start, end = min(step.strike for step in good), max(step.end for step in good)
-    ends = {
-        side: [t for step in steps if step.side == side for t in (step.strike, step.end)] for side in SIDES
-    }
-    spans = {
-        side: (min(times), max(times)) for side, times in ends.items() if times
-    }  # steps follow each other
+    spans = {}  # steps of a foot follow each other without gaps
+    for side in SIDES:
+        mine = [step for step in steps if step.side == side]
+        if mine:
+            spans[side] = min(step.strike for step in mine), max(step.end for step in mine)
 
     def belongs(event: Event) -> bool:
         first, last = spans.get(event.side, (end, start))

@@ -87,9 +87,8 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
     heading = T[:, 0, :2, 0] / np.maximum(np.linalg.norm(T[:, 0, :2, 0], axis=1, keepdims=True), LEVEL)
     soles = T[:, 1:, :3, 3].reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball of each foot
-    if (
-        gait.base is None
-    ):  # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
+    if gait.base is None:
+        # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
         along = soles - T[:, None, None, 0, :3, 3]
         soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
     feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)

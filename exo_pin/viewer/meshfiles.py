@@ -5,6 +5,7 @@ Nothing that a mesh file names (textures, material libraries) is opened.
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -54,13 +55,7 @@ def read(path: Path) -> list[Part]:
     data = read_bytes(path)
     try:
         parts = READERS[kind](data)
-    except (
-        ValueError,
-        KeyError,
-        IndexError,
-        OverflowError,
-        SyntaxError,
-    ) as error:  # a ParseError is the last
+    except (ValueError, LookupError, OverflowError, ET.ParseError) as error:
         raise FormatError(path, f"is damaged: {error}") from None
     for part in parts:
         if not np.isfinite(part.vertices).all() or (len(part.faces) and not _within(part)):
