@@ -268,3 +268,18 @@ def test_what_is_no_gait_is_refused_in_one_line(capsys, tmp_path, shared):
         code, _, err = run(capsys, "convert", folder / name, tmp_path / "x.csv")
         assert (code, len(err.splitlines())) == (2, 1), name
     assert not list(tmp_path.iterdir())
+
+
+def test_force_plates_tell_when_the_feet_struck(capsys, tmp_path, shared):
+    """Named plates correct the events they saw; each event says its source; forces of nobody are refused."""
+    subject = shared / "opensim_subject01_walk"
+    walk = subject / "subject01_walk1_ik_full_opensim46.mot"
+    code, out, _ = run(capsys, "info", walk, "--forces", subject / "subject01_walk1_grf.mot", "--json")
+    sources = [event["source"] for event in json.loads(out)["events"]]
+    assert code == 0
+    assert sum(source == "force plate" for source in sources) == 7
+    code, _, err = run(capsys, "info", "free", "--forces", subject / "subject01_walk1_grf.mot")
+    assert (code, len(err.splitlines())) == (2, 1)
+    code, out, err = run(capsys, "cycles", walk, "--forces", walk)
+    assert (code, out) == (2, "")
+    assert "no ground reaction forces" in err.splitlines()[-1]

@@ -7,11 +7,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from exo_pin.anatomy import Body
+from exo_pin.anatomy import SIDES, Body
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Plate, load_forces, load_gait, load_markers
-from exo_pin.gait import Gait, normative_gait
-from exo_pin.kinematics import events, plate_events, poses, spatiotemporal
+from exo_pin.gait import Gait, normative_gait, plates
+from exo_pin.kinematics import events, plate_events, poses, spatiotemporal, with_plates
 from exo_pin.robot import load_robot
 
 FRAMES = 2 / 60  # [s] two frames of the recording: what the issue allows Zeni's method
@@ -104,6 +104,32 @@ def test_events_of_the_childs_plates_agree_with_those_of_the_file(shared):
     assert len(found) == 4
     for event in found:
         assert min(abs(event.time - t) for t in times(gait.events, event.kind, event.side)) < 0.011  # a frame
+
+
+def test_plates_correct_the_events_that_they_saw_and_leave_the_others(shared):
+    """Without its own events the child's trial gets four from the plates, the rest by kinematics."""
+    path = shared / "c3d_pig_walk_HC036A/HC036A10_walk.c3d"
+    stated, trial = load_gait(path), load_markers(path)
+    robot = load_robot(Body.from_stature(1.34, mass=33))
+    bare = dataclasses.replace(stated, events=())
+    found = with_plates(robot, bare, trial.plates)
+    measured = [e for e in found.events if e.source == plates.SOURCE]
+    assert len(measured) == 4
+    assert len(found.events) == len(events(robot, bare))  # corrected, none twice
+    strides = [np.diff(times(w.events, "heel_strike", side)) for w in (found, stated) for side in SIDES]
+    assert np.ravel(strides[:2]) == pytest.approx(np.ravel(strides[2:]), abs=0.03)  # plates beside kinematics
+    for event in measured:
+        near = [e for e in stated.events if (e.side, e.kind) == (event.side, event.kind)]
+        assert min(abs(event.time - e.time) for e in near) < 0.011  # a frame
+
+
+def test_stepping_on_a_plate_is_no_walk(robot):
+    """No event is made where there is no gait."""
+    walk = normative_gait("free").repeated(2)
+    still = Gait(walk.time, 0 * walk.q, base=np.tile(walk.base[0], (len(walk), 1, 1)))
+    plate = plate_under(robot, still, 0, (0.2, 0.6))
+    assert plate_events(robot, still, [plate])
+    assert with_plates(robot, still, [plate]).events == ()
 
 
 def test_files_without_forces_are_refused(shared):

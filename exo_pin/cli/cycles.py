@@ -152,8 +152,11 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
     for k, citation in enumerate(found["sources"].values()):
         print(f"{k + 1}  {citation}")
     print("-  no published range was checked")
-    if any(SOURCE in by for by in found["events_by"]):
-        print("events by kinematics lie within two frames or so: stance and double support come out too long")
+    if any(SOURCE in by and "plate" not in by for by in found["events_by"]):
+        print(
+            "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
+        )
+        print("come out too long; --forces sets them by force plates")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
     print_left_out(found)

@@ -3,7 +3,7 @@
 from exo_pin.kinematics.contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
-from exo_pin.kinematics.walk import plate_events, spatiotemporal
+from exo_pin.kinematics.walk import plate_events, spatiotemporal, with_plates
 
 __all__ = [
     "CenterOfMass",
@@ -19,4 +19,5 @@ __all__ = [
     "spatiotemporal",
     "velocities",
     "with_events",
+    "with_plates",
 ]

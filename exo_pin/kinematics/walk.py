@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait, plates
+from exo_pin.gait.event import EVENT_KINDS
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import strides, unrolled
@@ -25,6 +27,12 @@ Array = npt.NDArray[np.float64]
 
 NEAR = 0.3
 """A foot whose sole is further from the force than this [m] is not the one on the plate."""
+
+SAME = 0.2
+"""Two strikes of a foot are further apart than this [s]; a stride takes 0.4 s or more."""
+
+MOVED = ", set by the plates"
+"""Added to the source of an event of kinematics that was moved by what plates saw of others."""
 
 CLEARLY = 0.5
 """The other foot must be at least this many times further away, or nobody can tell whose the force is."""
@@ -83,6 +91,43 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Eve
     if not found:
         raise GaitError("no contact of a foot with a force plate was found")
     return tuple(sorted(found, key=lambda event: event.time))
+
+
+def with_plates(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> Gait:
+    """The gait with events: those of the plates, and beside them its own or those of its kinematics.
+
+    A plate measures a step or two, a walk has more; each event says its source. Kinematics find all strikes
+    early and all toe-offs late, so those beside the plates' are moved by the mean difference at these: a
+    stride from a measured strike to a found one would be short (by 50 ms of 830 on HC036A). A motion in
+    which there is no walk, as standing on a plate, stays as it is.
+
+    Raises:
+        GaitError: As `plate_events`.
+    """
+    measured = plate_events(robot, gait, forces)
+    try:
+        known = with_events(robot, gait).events
+    except GaitError:
+        return gait
+    others = [e for e in known if not any(_same(e, plate) for plate in measured)]
+    if not gait.events:
+        late = {kind: _late(known, measured, kind) for kind in EVENT_KINDS}
+        moved = [Event(e.time + late[e.kind], e.kind, e.side, e.source + MOVED) for e in others]
+        others = [e for e in moved if gait.time[0] <= e.time <= gait.time[-1]]
+    found = sorted([*measured, *others], key=lambda event: event.time)
+    return dataclasses.replace(gait, events=tuple(found))
+
+
+def _late(known: Iterable[Event], measured: Iterable[Event], kind: str) -> float:
+    """How much later than the known events of a kind the plates' are, in the mean [s]; 0 if unknown."""
+    known = list(known)
+    apart = [m.time - e.time for m in measured if m.kind == kind for e in known if _same(e, m)]
+    return float(np.mean(apart)) if apart else 0.0
+
+
+def _same(one: Event, other: Event) -> bool:
+    """Whether two ways found the same moment of the same foot."""
+    return (one.kind, one.side) == (other.kind, other.side) and abs(one.time - other.time) < SAME
 
 
 def _whose(time: Array, soles: Array, plate: Plate, contact: plates.Contact) -> str:
