@@ -10,27 +10,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy import FEET, SIDES
-from exo_pin.devices import TOES
+from exo_pin.anatomy import FEET
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
-from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost, in_step
+from exo_pin.viewer.actor import Actor
 from exo_pin.viewer.cycles import cycles
-from exo_pin.viewer.facts import Facts, Grip, Group, Marks, Scene
+from exo_pin.viewer.facts import Facts, Group, Marks, Scene
 from exo_pin.viewer.humanoid import humanoid
-from exo_pin.viewer.links import Linkage, linkage
-from exo_pin.viewer.motion import Motion, motion
+from exo_pin.viewer.motion import Motion
 from exo_pin.viewer.play import Play
-from exo_pin.viewer.wearer import wearer as person
-from exo_pin.viewer.world import ROOT, boxes, mounts, world
+from exo_pin.viewer.walker import walker
+from exo_pin.viewer.world import ROOT, boxes, world
 
 Array = NDArray[np.float64]
 
 _ASKEW = radians(15)  # a smaller heading is left as recorded: the cameras forgive it
-_BACKPACK = 0.34  # ends this far above the hips [m]
 
 
 def scene(
@@ -84,33 +81,18 @@ def scene(
             speed=speed,
         )
     gait, faced = _facing(gait)
-    shown = motion(robot, gait, support)
-    exo = linkage(robot.urdf, f"{ROOT}/exo")
-    actors = [exoskeleton(robot, shown, exo)]
-    tabs = curves.of_gait(robot, gait, reference, torques)
-    if compare is not None:
-        second = aligned(gait, compare)
-        actors.append(ghost(robot, second, support, f"{ROOT}/ghost", compare_title))
-        tabs = curves.beside(tabs, curves.of_gait(robot, second))
-        faced.append(in_step(gait, compare))
-    top = _BACKPACK
-    if wearer and robot.body is not None and robot.body.wearer:
-        actors.append(person(robot.body, exo.links, f"{ROOT}/wearer", gait, shown.base))
-        top = robot.body.stature - robot.body.leg_length
-    play = Play(
-        robot=robot,
-        gait=gait,
-        shown=shown,
-        actors=tuple(actors),
-        mounts=mounts(robot, shown, exo),
-        grips=tuple(Grip(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in exo.links),
-        tabs=tabs,
-        reference="" if reference is None else reference_title,
-        compared="" if compare is None else compare_title,
-        top=top,
-        notes=(*faced, *_notes(exo, actors), *curves.notes(torques)),
+    play = walker(
+        robot,
+        gait,
+        reference=reference,
+        reference_title=reference_title,
+        compare=compare,
+        compare_title=compare_title,
+        torques=torques,
+        support=support,
+        wearer=wearer,
     )
-    return _compiled(play, title, notes, speed)
+    return _compiled(replace(play, notes=(*faced, *play.notes)), title, notes, speed)
 
 
 def retargeted(
@@ -197,19 +179,6 @@ def _ground(shown: Motion) -> list[str]:
     notes = [shown.support.note]
     if shown.estimated:
         notes.append("The gait has no contact events: contact is estimated from the lowest sole corners.")
-    return notes
-
-
-def _notes(exo: Linkage, actors: Iterable[Actor]) -> list[str]:
-    notes = []
-    if exo.skipped:
-        notes.append(f"{exo.skipped} visuals of the URDF are meshes and are not drawn.")
-    if any(turn.name in TOES for turn in exo.turns):
-        notes.append("A gait has no toe angles: the toes bend as far as the ground demands.")
-    if any(actor.chain.name == "wearer" for actor in actors):
-        notes.append(
-            "The wearer's trunk and arms are illustration; hips, knees and ankles are the exoskeleton's."
-        )
     return notes
 
 
