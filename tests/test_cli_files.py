@@ -283,3 +283,18 @@ def test_force_plates_tell_when_the_feet_struck(capsys, tmp_path, shared):
     code, out, err = run(capsys, "cycles", walk, "--forces", walk)
     assert (code, out) == (2, "")
     assert "no ground reaction forces" in err.splitlines()[-1]
+
+
+def test_interchanged_markers_are_doubted(capsys, tmp_path, shared):
+    """The heels' names change places: the fit says so, with the markers; the true trial has no doubts."""
+    path = shared / "opensim_subject01_walk/subject01_walk1.trc"
+    _, out, _ = run(capsys, "info", path, "--json")
+    assert json.loads(out)["doubts"] == []
+    wrong = tmp_path / "wrong.trc"
+    text = path.read_text().replace("L.Heel", "?").replace("R.Heel", "L.Heel").replace("?", "R.Heel")
+    wrong.write_text(text)
+    code, out, err = run(capsys, "info", wrong, "--json")
+    (doubt,) = (text for text in json.loads(out)["doubts"] if "interchanged" in text)
+    assert code == 0
+    assert "Heel" in doubt
+    assert doubt in err

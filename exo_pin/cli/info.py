@@ -97,6 +97,6 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
         "events_note": note,
         "markers": trials.facts(args),
         "outliers": outliers.facts(gait),
-        "doubts": list(doubts(gait)),
+        "doubts": [*doubts(gait), *trials.doubts(args)],
         **cycles.facts(robot, gait),
     }

@@ -54,7 +54,7 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     walk = plates.struck(args, body, walk)
     from exo_pin.gait import doubts
 
-    for reason in doubts(walk):
+    for reason in (*doubts(walk), *trials.doubts(args)):
         print(f"warning: {reason}", file=sys.stderr)
     return walk
 
