@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exo_pin.cli import COMMANDS, main, options
+from exo_pin.cli import COMMANDS, main, options, show
 from exo_pin.formats import load_gait, load_poses, presets
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -225,3 +225,14 @@ def test_help_is_quick():
 
 def test_every_convention_that_is_known_can_be_chosen():
     assert set(options.PRESETS) == set(presets.PRESETS)
+
+
+@pytest.mark.parametrize("width", ["20", "50", "300"])
+def test_no_window_is_so_narrow_that_a_number_or_a_word_is_cut(capsys, monkeypatch, width):
+    monkeypatch.setenv("COLUMNS", width)
+    rows = [["left_hip_flexion", "-277.25 .. 31.5", "hip_flexion, knee_flexion", "ok"], ["x", "-1", "", "NO"]]
+    show.table("title", ["joint", "asked deg", "driven", ""], rows)
+    shown = capsys.readouterr().out
+    assert all(word in shown for row in rows for cell in row for word in cell.split(", "))
+    assert "-277.25 .. 31.5" in shown
+    assert "…" not in shown

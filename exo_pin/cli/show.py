@@ -14,11 +14,16 @@ BLOCK = 2000
 """Samples between two steps of a progress bar."""
 
 
+_ANY = 10_000  # characters: wider than any table
+
 _NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers begin
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; columns of numbers are aligned to the right and never broken, only their headings."""
+    """Print a table; columns of numbers are aligned to the right and never broken, only their headings.
+
+    Where a narrow window cannot hold them, lines run over its edge: a number cut short would be another one.
+    """
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -27,13 +32,22 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
     for k, name in enumerate(columns):
         numbers = all(row[k][:1] in _NUMERIC for row in rows)
         if k and numbers:
-            drawn.add_column(name.replace(" ", "\n"), justify="right", no_wrap=True)
+            head = name.replace(" ", "\n")
+            drawn.add_column(head, justify="right", no_wrap=True, min_width=_widest(head, rows, k))
         else:
-            drawn.add_column(name, no_wrap=not k)
+            drawn.add_column(name, no_wrap=not k, min_width=_widest(name, rows, k, words=k > 0))
     for row in rows:
         drawn.add_row(*row)
     print(title)
-    Console(highlight=False).print(drawn)
+    console = Console(highlight=False)
+    least = console.measure(drawn, options=console.options.update(max_width=_ANY)).minimum
+    Console(highlight=False, width=max(console.width, least)).print(drawn)
+
+
+def _widest(heading: str, rows: Sequence[Sequence[str]], k: int, *, words: bool = False) -> int:
+    """Characters that column k needs: of its longest cell, or of its longest word."""
+    cells = heading.split("\n") + [row[k] for row in rows]
+    return max(map(len, " ".join(cells).split() if words else cells), default=0)
 
 
 def fixed(value: float, digits: int = 1) -> str:
