@@ -244,6 +244,10 @@ def test_a_device_of_one_s_own_is_a_file(tmp_path):
         ("[ranges_m]", "[ranges_deg2]"),
         ('["pelvis_up"]', "true"),
         ("[ranges_deg]\nknee_flexion", "[ranges_deg]\npelvis_up"),
+        ("[ranges_m]\npelvis_up", "[ranges_m]\npelvis_left"),
+        ("[actuators.knee_flexion]", "[actuators.toe_dorsiflexion]"),
+        ('source = "', 'source = "" # "'),
+        ('name = "mine"', 'name = "lokomat"'),
     ],
 )
 def test_a_wrong_device_file_is_refused_by_name(tmp_path, old, new):
@@ -275,7 +279,21 @@ def test_the_devices_are_listed_and_shown_with_their_sources(capsys):
     assert main(["devices", "lopes8"]) == 0
     assert "Veneman" in capsys.readouterr().out
     assert main(["devices", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["lokomat"]["motors"] == 4
+    told = json.loads(capsys.readouterr().out)
+    assert told["lokomat"]["motors"] == 4
+    assert all(set(d["ranges"]) <= set(d["actuators"]) for d in told.values())
+
+
+def test_every_number_of_a_device_has_a_source_or_is_called_a_choice():
+    for device in DEVICES.values():
+        words = " ".join((device.source, *device.remarks))
+        assert "design choice" in words
+        assert ("slides: a design choice" in words) == bool(device.slides)
+        assert ("Toe joint" in words) == device.toes
+        if device.treadmill:
+            assert all(f"{3.6 * speed:g}" in words for speed in device.treadmill)
+        if device.statures:
+            assert all(f"{stature:.2f}" in words for stature in device.statures)
 
 
 def test_the_urdf_command_writes_a_device(capsys):

@@ -48,7 +48,7 @@ def facts(device: Device) -> dict[str, Any]:
         "actuators": {name: actuator._asdict() for name, actuator in device.actuators.items()},
         "treadmill_m_s": device.treadmill,
         "statures_m": device.statures,
-        "ranges": {name: [lower, upper] for name, (lower, upper) in device.ranges.items()},
+        "ranges": {m: list(pair) for m, pair in device.ranges.items() if m in device.actuators},
         "source": device.source,
         "remarks": device.remarks,
     }
@@ -65,10 +65,13 @@ def movements(joints: tuple[str, ...]) -> str:
 
 
 def _print_all(chosen: list[Device]) -> None:
-    rows = [
-        [d.name, str(d.motors), movements(d.joints) if d.locked else "all six", _pelvis(d)] for d in chosen
-    ]
+    rows = [[d.name, str(d.motors), _driven(d), _pelvis(d)] for d in chosen]
     show.table("Devices", ["name", "motors", "driven, each leg", "pelvis"], rows)
+
+
+def _driven(device: Device) -> str:
+    toes = ", toe_dorsiflexion" if device.toes else ""
+    return (movements(device.joints) if device.locked else "all six") + toes
 
 
 def _pelvis(device: Device) -> str:

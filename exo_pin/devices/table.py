@@ -11,9 +11,10 @@ from exo_pin.anatomy.names import JOINTS
 from exo_pin.devices.choices import CHOSEN, Actuator
 from exo_pin.devices.record import Device, both
 from exo_pin.devices.userfile import load
-from exo_pin.errors import UnknownNameError
+from exo_pin.errors import FormatError, UnknownNameError
 
 _CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."
+_TRAVEL = "Travel and speed of the pelvis's slides: a design choice, +-0.10 m and 1 m/s."
 _FOOT = both("ankle_dorsiflexion", "ankle_inversion")
 _FREE_FOOT = "The foot is free in LOPES; here the ankle is held at zero unless released."
 _TRUNK_PITCH = "The trunk's pitch is left to the hips: it turns about the same axis as hip flexion."
@@ -47,8 +48,9 @@ LOKOMAT = Device(
     remarks=(
         "The ankle is carried by foot lifters and moved by the treadmill; here it is held at zero unless "
         "released.",
-        "Its treadmill runs at 0.5 to 3.2 km/h.",
-        "Travel of the body-weight support: a design choice, +-0.10 m.",
+        "Its treadmill runs at 0.5 to 3.2 km/h: no primary source of these two numbers was at hand; a device "
+        "file can hold another range.",
+        _TRAVEL,
     ),
 )
 
@@ -60,7 +62,7 @@ LOPES7 = Device(
     pelvis=("pelvis_up",),
     source="Chen, Zhang and Zhu: 7 degrees of freedom, hip flexion, hip adduction and knee of each leg and "
     "the pelvis up and down. " + _CHOSEN,
-    remarks=("Its authors count 8: see lopes8. " + _FREE_FOOT,),
+    remarks=("Its authors count 8: see lopes8. " + _FREE_FOOT, _TRAVEL),
 )
 
 LOPES8 = Device(
@@ -74,7 +76,7 @@ LOPES8 = Device(
     "sideways, and two driven joints at the hip and one at the knee of each leg. " + _CHOSEN,
     remarks=(
         "The pelvis moves vertically too, without a motor. The paper counts 7: see lopes7.",
-        "Travel of the pelvis: a design choice, +-0.10 m.",
+        _TRAVEL,
         _FREE_FOOT,
     ),
 )
@@ -113,7 +115,7 @@ PLANAR5 = Device(
     pelvis=("pelvis_forward", "pelvis_up"),
     actuators=_loose("pelvis_forward", "pelvis_up"),
     source="Sagittal model of trunk, two thighs and two shanks, the feet rigid with the shanks. " + _CHOSEN,
-    remarks=(_TRUNK_PITCH,),
+    remarks=(_TRUNK_PITCH, _TRAVEL),
 )
 
 PLANAR7 = Device(
@@ -123,7 +125,7 @@ PLANAR7 = Device(
     pelvis=("pelvis_forward", "pelvis_up"),
     actuators=_loose("pelvis_forward", "pelvis_up"),
     source="Sagittal model of trunk, two thighs, two shanks and two feet. " + _CHOSEN,
-    remarks=(_TRUNK_PITCH,),
+    remarks=(_TRUNK_PITCH, _TRAVEL),
 )
 
 PLANAR9 = Device(
@@ -137,6 +139,7 @@ PLANAR9 = Device(
     "Toe joint across the ball of the foot, its range and torque: a design choice. " + _CHOSEN,
     remarks=(
         _TRUNK_PITCH,
+        _TRAVEL,
         "Authors differ on the nine links (toes, or arms and head); a gait of this package has no toe "
         "angles, so the toes stay at zero and the sole's pose is that of planar7.",
     ),
@@ -153,12 +156,15 @@ def find(device: str | Device) -> Device:
 
     Raises:
         UnknownNameError: There is none of that name.
-        FormatError: The file is no device.
+        FormatError: The file is no device, or has the name of a known one.
     """
     if isinstance(device, Device):
         return device
     if device in DEVICES:
         return DEVICES[device]
     if Path(device).suffix.lower() == ".toml":
-        return load(device)
+        own = load(device)
+        if own.name in DEVICES:
+            raise FormatError(device, f"name {own.name!r} is that of a device of exo_pin; take another")
+        return own
     raise UnknownNameError("device", device, DEVICES)

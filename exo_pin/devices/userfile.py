@@ -50,6 +50,22 @@ def load(path: str | Path) -> Device:
 
 
 def _device(values: dict[str, Any]) -> Device:
+    _check(values)
+    actuators = {m: _actuator(m, numbers) for m, numbers in values.pop("actuators", {}).items()}
+    ranges = _pairs(values.pop("ranges_deg", {}), math.radians) | _pairs(values.pop("ranges_m", {}), float)
+    for name in {"joints", "passive"} & set(values):
+        values[name] = _with_sides(values[name])
+    for name in {"pelvis", "remarks"} & set(values):
+        values[name] = values[name] if isinstance(values[name], str) else tuple(values[name])
+    values["treadmill"] = _scaled(values.pop("treadmill_km_h", None), 1 / 3.6)
+    values["statures"] = _scaled(values.pop("statures_m", None), 1.0)
+    device = Device(actuators=actuators, ranges=ranges, **values)
+    _check_movements(device, (*actuators, *ranges))
+    return device
+
+
+def _check(values: dict[str, Any]) -> None:
+    """Refuse names that are unknown, values of another kind, and files that leave out what is needed."""
     for name, value in values.items():
         if name not in _KINDS:
             raise UnknownNameError("entry of a device file", name, _KINDS)
@@ -59,15 +75,15 @@ def _device(values: dict[str, Any]) -> Device:
     for name in ("name", "joints", "source"):
         if name not in values:
             raise DescriptionError(f"{name} is missing")
-    actuators = {m: _actuator(m, numbers) for m, numbers in values.pop("actuators", {}).items()}
-    ranges = _pairs(values.pop("ranges_deg", {}), math.radians) | _pairs(values.pop("ranges_m", {}), float)
-    for name in {"joints", "passive"} & set(values):
-        values[name] = _with_sides(values[name])
-    for name in {"pelvis", "remarks"} & set(values):
-        values[name] = values[name] if isinstance(values[name], str) else tuple(values[name])
-    values["treadmill"] = _scaled(values.pop("treadmill_km_h", None), 1 / 3.6)
-    values["statures"] = _scaled(values.pop("statures_m", None), 1.0)
-    return Device(actuators=actuators, ranges=ranges, **values)
+    if not values["source"].strip():
+        raise DescriptionError("source is empty; where the joints and numbers come from is asked")
+
+
+def _check_movements(device: Device, named: tuple[str, ...]) -> None:
+    """Refuse numbers of slides and toes that the device does not have."""
+    for movement in named:
+        if movement not in device.actuators:
+            raise DescriptionError(f"{movement} has numbers, but the device has no such joint (pelvis, toes)")
 
 
 def _is_pair(value: object) -> bool:
