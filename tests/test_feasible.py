@@ -12,7 +12,7 @@ from exo_pin.errors import UnknownNameError
 from exo_pin.feasible import feasible, nearest
 from exo_pin.feasible.scale import MOST, scaled
 from exo_pin.feasible.verdict import FASTEST
-from exo_pin.formats import load_gait
+from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.robot import load_robot
 
@@ -125,6 +125,13 @@ def test_standing_still_is_possible_at_any_speed():
     assert verdict.ok
     assert (verdict.cadence, verdict.amplitude) == (FASTEST, MOST)
     json.dumps(verdict.facts(), allow_nan=False)
+
+
+def test_the_command_says_where_it_stopped_to_look(capsys, tmp_path):
+    path = tmp_path / "still.npz"
+    save_gait(Gait(np.arange(5) / 10, np.zeros((5, 12))), path)
+    assert main(["feasible", str(path)]) == 0
+    assert "at 10 times the cadence, and more was not tried; at 3 times" in capsys.readouterr().out
 
 
 def test_speed_and_acceleration_limits_count():

@@ -110,8 +110,12 @@ def _failure(failure: dict[str, Any]) -> str:
 
 
 def _cadence(verdict: Feasibility) -> str:
+    from exo_pin.feasible import FASTEST
+
     if not verdict.cadence_decides:
         return "at no cadence (what fails does not depend on it)"
+    if verdict.cadence >= FASTEST:
+        return f"at {FASTEST:g} times the cadence, and more was not tried"
     text = f"up to {math.floor(100 * verdict.cadence) / 100:.2f} times the cadence"
     if verdict.gait.periodic:
         steps = 120 / verdict.gait.duration
@@ -120,10 +124,14 @@ def _cadence(verdict: Feasibility) -> str:
 
 
 def _amplitude(verdict: Feasibility) -> str:
+    from exo_pin.feasible import MOST
+
     if not verdict.amplitude_decides:
         return "at no amplitude that is known"
     if not verdict.amplitude:
         return "at no amplitude of the joints"
+    if verdict.amplitude >= MOST:
+        return f"at {MOST:g} times the movement of the joints, and more was not tried"
     return f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
 
 
