@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
-from exo_pin.gait.events import SOURCE, TOGETHER, candidates, check_turns
+from exo_pin.gait.events import SOURCE, candidates, check_apart, check_turns
 from exo_pin.gait.steps import Feet, Step, agreed, in_the_air, steps_of
 
 Array = NDArray[np.float64]
@@ -84,9 +84,7 @@ def _one_way(feet: Feet, backwards: bool) -> tuple[tuple[Event, ...], int, str]:
 
 def _too_short(feet: Feet, first: Array, events: list[Event]) -> tuple[Event, ...]:
     """Events of a recording without a whole stride, if they may belong to a walk."""
-    left, right = (feet.ahead(first) - feet.ahead(first).mean(axis=0)).T
-    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
-        raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
+    check_apart(feet.ahead(first))
     check_turns(events)
     for k, side in enumerate(SIDES):
         mine = [event for event in events if event.side == side]

@@ -63,9 +63,7 @@ def zeni(
     """
     heels = frozen(heel_forward, "heel_forward")
     events = candidates(time, heels, toe_forward, periodic=periodic, smallest_excursion=smallest_excursion)
-    left, right = (heels - heels.mean(axis=0)).T
-    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
-        raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
+    check_apart(heels)
     check_turns(events, periodic)
     return tuple(events)
 
@@ -163,6 +161,13 @@ def _vertex(time: Array, y: Array, i: int) -> float:
     if bend >= 0:  # a plateau
         return float(time[i])
     return float(time[i] + np.clip((before - left / bend) / 2, before / 2, after / 2))
+
+
+def check_apart(forward: Array) -> None:
+    """Raises `GaitError` if left and right foot `(n, 2)` [m] move forward together."""
+    left, right = (forward - forward.mean(axis=0)).T
+    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
+        raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
 
 
 def check_turns(events: list[Event], periodic: bool = False) -> None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
+from exo_pin.gait.curves import runs
 from exo_pin.viewer.contact import Intervals, lowest_corners, samples
 
 Array = NDArray[np.float64]
@@ -182,19 +183,14 @@ def _remains(gait: Gait, feet: Array, stance: Intervals) -> tuple[float, float, 
     hover = max(low[side][single[side]].max(initial=0.0) for side in SIDES)
     higher = np.maximum(low["left"], low["right"])
     sideways = _integral(gait, _bearing_velocity(gait, feet)[:, 1])
-    runs = [run for side in SIDES for run in _runs(single[side])]
-    slide = max((float(np.ptp(sideways[run])) for run in runs), default=0.0)
+    spans = [slice(*span) for side in SIDES for span in runs(single[side])]
+    slide = max((float(np.ptp(sideways[span])) for span in spans), default=0.0)
     return (
         max(-float(feet[..., 2].min()), 0.0),
         float(hover),
         float(higher[left & right].max(initial=0.0)),
         slide,
     )
-
-
-def _runs(mask: NDArray[np.bool_]) -> list[slice]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
-    return [slice(a, b) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _words(sink: float, hover: float, gap: float, slide: float) -> str:
