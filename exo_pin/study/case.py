@@ -67,8 +67,10 @@ class Case:
     def without(self, done: Container[str]) -> Case:
         """The same case without the parts of these fingerprints."""
         pairs = zip(self.parts, self.fingerprints, strict=True)
-        rest = dataclasses.replace(self, parts=tuple(part for part, mark in pairs if mark not in done))
-        _ = rest.fingerprints  # made here, where the plan is, and carried to the worker
+        left = [(part, mark) for part, mark in pairs if mark not in done]
+        rest = dataclasses.replace(self, parts=tuple(part for part, _ in left))
+        # the plan's are carried to the worker, and the recording is not read again for them
+        vars(rest)["fingerprints"] = tuple(mark for _, mark in left)
         return rest
 
 
