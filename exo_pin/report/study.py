@@ -14,6 +14,7 @@ from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Tab
 from exo_pin.report.chart import Chart, draw
 from exo_pin.report.heat import heat, strips
 from exo_pin.study import Row, summary
+from exo_pin.study.sheet import phase_column
 
 Array = npt.NDArray[np.float64]
 
@@ -228,7 +229,7 @@ def _cells(rows: Sequence[Row], speeds: Sequence[str], what: str) -> dict[str, l
 
 
 def _phases(row: Row) -> list[float]:
-    return [getattr(row, f"{phase.replace(' ', '_').replace('-', '_')}_rms_mm") for phase in PHASES]
+    return [getattr(row, phase_column(phase)) for phase in PHASES]
 
 
 def _usual_stature(rows: Sequence[Row]) -> float:

@@ -20,7 +20,7 @@ from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import is_markers, load_gait
 from exo_pin.gait import Gait, doubts, normative_gait
-from exo_pin.study.sheet import MOTIONS, Row
+from exo_pin.study.sheet import MOTIONS, Row, phase_column
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -138,10 +138,7 @@ def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str
     body = loss.walk.robot.body
     assert body is not None  # compare made it
     gait, facts = loss.walk.gait, loss.facts()
-    phases = {
-        f"{phase.replace(' ', '_').replace('-', '_')}_rms_mm": _nan(facts["sole_error_by_phase_mm"][phase])
-        for phase in PHASES
-    }
+    phases = {phase_column(phase): _nan(facts["sole_error_by_phase_mm"][phase]) for phase in PHASES}
     return Row(
         gait=case.gait,
         source=gait.source,

@@ -108,6 +108,11 @@ _KINDS: Mapping[str, Callable[[str], Any]] = {
 _READ = tuple(_KINDS[str(field.type)] for field in dataclasses.fields(Row))
 
 
+def phase_column(phase: str) -> str:
+    """The column of a phase of the cycle (`exo_pin.compare.PHASES`)."""
+    return f"{phase.replace(' ', '_').replace('-', '_')}_rms_mm"
+
+
 def text(rows: Iterable[Row], *, heading: bool = True) -> str:
     """Rows as CSV; numbers in the shortest form that reads back as the same number, an empty cell for NaN."""
     file = io.StringIO()
