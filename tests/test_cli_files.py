@@ -298,3 +298,11 @@ def test_interchanged_markers_are_doubted(capsys, tmp_path, shared):
     assert code == 0
     assert "Heel" in doubt
     assert doubt in err
+
+
+def test_cycles_says_whose_lengths_they_are(capsys, recording):
+    """A recording of angles has nobody's size; a measure or a normal walk needs no such remark."""
+    remark = "lengths and width are the default body's"
+    assert remark in run(capsys, "cycles", recording)[1]
+    assert remark not in run(capsys, "cycles", recording, "--stature", 1.6)[1]
+    assert remark not in run(capsys, "cycles", "free")[1]

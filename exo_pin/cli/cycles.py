@@ -6,8 +6,9 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import SIDES
-from exo_pin.cli import options, outliers, show
+from exo_pin.cli import options, outliers, show, trials
 from exo_pin.errors import GaitError
+from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.gait import Cycles, Gait
@@ -157,6 +158,8 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
             "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
         )
         print("come out too long; --forces sets them by force plates")
+    if args.gait not in SPEEDS and not trials.sized(args):
+        print("lengths and width are the default body's: --stature, --hip-width or --body tell the person's")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
     print_left_out(found)

@@ -28,7 +28,8 @@ _EXAMPLES = """examples:
 
 Adjustments are made in the order of these options: cutoff, cycle, symmetric, mirror, blend, amplitude,
 stride and clearance, transition, duration or slower, ramp. Limits, speeds and accelerations are checked
-after each. exit code 0: done; 1: written, but a joint leaves its limits."""
+after each. exit code 0: done; 1: written, but a joint leaves its limits; or the legs cannot follow, and
+nothing is written."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
