@@ -149,6 +149,11 @@ def doubts(args: argparse.Namespace) -> tuple[str, ...]:
     )
 
 
+def sized(args: argparse.Namespace) -> bool:
+    """Whether lengths are the person's own: the user gave measures, or the trial's markers did."""
+    return any(getattr(args, name, None) for name in MEASURES) or found(args) is not None
+
+
 def facts(args: argparse.Namespace) -> dict[str, Any] | None:
     """How well the markers are met, frame by frame and marker by marker; None where GAIT is no trial."""
     trial = found(args)
