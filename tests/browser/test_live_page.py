@@ -7,6 +7,7 @@ import pytest
 
 from exo_pin import viewer
 from exo_pin.kinematics import poses
+from exo_pin.viewer.links import linkage
 
 SINGLE = 1e-6  # [m]: float32
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
@@ -41,7 +42,7 @@ def test_the_live_page_has_the_same_forward_kinematics(browser, server, robot, g
 def test_a_pose_from_python_is_shown_at_once(browser, server, robot, rng):
     browser.open(server.url)
     q = rng.uniform(robot.lower, robot.upper)
-    names = [turn.name for turn in viewer.scene.__globals__["linkage"](robot.urdf, "/x").turns]
+    names = [turn.name for turn in linkage(robot.urdf, "/x").turns]
     base = [0.1, 0.2, 1.3, 0, 0, 0, 1]
     server.pose([q[robot.joints.index(name)] for name in names], base)
     browser.wait("Math.abs(exo.chains[0].root.position.z - 1.3) < 1e-3")

@@ -15,6 +15,7 @@ def plain(file, chromium_path):
 def test_the_page_says_that_pictures_are_missing(plain):
     assert plain.evaluate("document.getElementById('no-webgl').hidden") is False
     assert plain.evaluate("document.getElementById('no-webgl').offsetHeight") > 20
+    assert plain.evaluate("document.getElementById('cameras').offsetHeight") == 0, "nothing to look at"
 
 
 def test_plots_time_and_keys_live_on(plain):

@@ -20,7 +20,7 @@ class Player {
     this.drawn = null; // time of the last picture
     this.gone = [0, 0]; // how far the cameras have followed the walk [m]
     if (this.stage) this.watchStage();
-    part("show").hidden = !this.stage;
+    part("show").hidden = part("cameras").hidden = !this.stage;
     part("webm").hidden = !Recorder.possible;
   }
 
