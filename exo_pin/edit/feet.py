@@ -16,6 +16,7 @@ from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.kinematics import events, poses
+from exo_pin.kinematics.stand import travel
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]
@@ -197,6 +198,5 @@ def _heading(base: Array) -> Array:
 
 def _drift(base: Array, time: Array) -> Array:
     """`(n, 3)` the even part of the pelvis's level motion: how far the walk has got [m]."""
-    t = time - time.mean()
-    speed = (t @ (base[:, :3, 3] - base[:, :3, 3].mean(axis=0))) / (t @ t)
-    return np.asarray((time - time[0])[:, None] * speed * [1.0, 1.0, 0.0])
+    even = travel(time, base[:, :3, 3], periodic=False)
+    return np.asarray(even - even[0])

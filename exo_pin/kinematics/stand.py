@@ -17,11 +17,17 @@ def stand(time: Array, base: Array, *, periodic: bool) -> Array:
     """
     place = base[:, :3, 3]
     held = np.tile(np.eye(4), (len(place), 1, 1))
-    held[:, :3, 3] = place.mean(axis=0)
-    if not periodic:
-        away = time - time.mean()
-        held[:, :2, 3] += np.outer(away, away @ place[:, :2] / (away @ away))
+    held[:, :3, 3] = travel(time, place, periodic=periodic)
     forward = base[:, :2, 0].mean(axis=0)
     c, s = forward / math.hypot(*forward)
     held[:, :2, :2] = [[c, -s], [s, c]]
     return held
+
+
+def travel(time: Array, place: Array, *, periodic: bool) -> Array:
+    """The even travel (n, 3) of a place (n, 3) [m]: level along a line, or periodic and hence at rest."""
+    even = np.tile(place.mean(axis=0), (len(place), 1))
+    if not periodic:
+        away = time - time.mean()
+        even[:, :2] += np.outer(away, away @ place[:, :2] / (away @ away))
+    return even

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
+from exo_pin.kinematics.stand import travel
 from exo_pin.report import palette, panels, skeleton, svg
 from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
@@ -113,13 +114,11 @@ def joints(compared: Comparison, side: str) -> tuple[Drawing, ...]:
 
 def centre_of_mass(compared: Comparison) -> tuple[Drawing, ...]:
     """Forward, left, up about the recorded walk's even travel, every device before it (black) [mm]."""
-    along, travel = axes(compared.walk), _travel(compared.walk)
+    along, even = axes(compared.walk), _travel(compared.walk)
     drawings = []
     for k, name in enumerate(("forward", "to the left", "up")):
-        series = {
-            loss.device.name: 1e3 * (loss.motion.com @ along[k] - travel[:, k]) for loss in compared.best
-        }
-        recorded = 1e3 * (compared.walk.com @ along[k] - travel[:, k])
+        series = {loss.device.name: 1e3 * (loss.motion.com @ along[k] - even[:, k]) for loss in compared.best}
+        recorded = 1e3 * (compared.walk.com @ along[k] - even[:, k])
         title = f"Centre of mass, {name} [mm]"
         name = f"com_{'xyz'[k]}"
         drawings.append(_drawn(compared, "left", name, title, series, "mm", recorded=recorded, least=10.0))
@@ -128,12 +127,7 @@ def centre_of_mass(compared: Comparison) -> tuple[Drawing, ...]:
 
 def _travel(walk: Walk) -> Array:
     """The even travel of the recorded centre of mass (n, 3), along forward, left and up [m]."""
-    along = walk.com @ axes(walk).T
-    travel = np.tile(along.mean(axis=0), (len(along), 1))
-    if not walk.gait.periodic:
-        time = walk.gait.time - walk.gait.time.mean()
-        travel[:, :2] += np.outer(time, time @ along[:, :2] / (time @ time))
-    return travel
+    return travel(walk.gait.time, walk.com @ axes(walk).T, periodic=walk.gait.periodic)
 
 
 def _drawn(
