@@ -458,7 +458,7 @@ def test_the_commands_read_torques_and_tables_of_other_laboratories(tmp_path, ga
     header = ",".join(["t", *(f"c{k}" for k in range(12))])
     np.savetxt(lab, rows, delimiter=",", header=header, comments="")
     columns = [f"--map=c{k}={joint}" for k, joint in enumerate(JOINTS)]
-    told = ["--gait", str(lab), "--map=t=time", *columns, "--units", "deg"]
+    told = [str(lab), "--map=t=time", *columns, "--units", "deg"]
     assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *told]) == 0
     assert "lab.csv" in (tmp_path / "reproduction.md").read_text()
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """examples:
   exo-pin reproduce -o figures
-  exo-pin reproduce -o figures --gait walk.mot      with a recording in Fig. 4 and 6
+  exo-pin reproduce walk.mot -o figures             with a recording in Fig. 4 and 6
   exo-pin reproduce -o figures --no-render          without the browser's pictures
 
 Writes reproduction.html (one self-contained page), reproduction.md, and every figure as a file of its own.
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="the folder to write into")
     parser.add_argument(
-        "--gait", metavar="FILE", help="a recorded walk to show in Fig. 4 and to recover in Fig. 6"
+        "gait", metavar="GAIT", nargs="?", help="a recorded walk to show in Fig. 4 and to recover in Fig. 6"
     )
     options.add_preset(parser, "sign convention of that file")
     parser.add_argument(
