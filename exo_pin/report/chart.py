@@ -14,7 +14,7 @@ from exo_pin.report.axis import extent, label, ticks
 
 Array = NDArray[np.float64]
 
-_LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 10.0, 26.0, 34.0
+_LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 14.0, 26.0, 34.0
 _MOST_POINTS = 2000  # of one curve: five for every pixel
 
 
