@@ -8,7 +8,7 @@ import pytest
 
 from exo_pin import crosscheck
 from exo_pin.anatomy import MOVEMENTS
-from exo_pin.anatomy.tables import LIMITS_DEG
+from exo_pin.anatomy.anthropometry import LIMITS_DEG
 from exo_pin.cli import COMMANDS
 from exo_pin.gait import SPEEDS, normative_gait
 from exo_pin.robot import load_robot

@@ -11,10 +11,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from exo_pin.anatomy import tables, tomlfile
+from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.names import SIDES
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
+from exo_pin.safe import toml_file
 
 _LONGEST_LEG = 0.75  # of the stature; 0.53 is average
 
@@ -77,12 +78,12 @@ class Body:
     right_thigh_mass: float
     right_shank_mass: float
     right_foot_mass: float
-    pelvis_hardware: float = tables.HARDWARE_MASSES["pelvis_hardware"]
-    hip_hardware: float = tables.HARDWARE_MASSES["hip_hardware"]
-    thigh_hardware: float = tables.HARDWARE_MASSES["thigh_hardware"]
-    shank_hardware: float = tables.HARDWARE_MASSES["shank_hardware"]
-    ankle_hardware: float = tables.HARDWARE_MASSES["ankle_hardware"]
-    foot_hardware: float = tables.HARDWARE_MASSES["foot_hardware"]
+    pelvis_hardware: float = anthropometry.HARDWARE_MASSES["pelvis_hardware"]
+    hip_hardware: float = anthropometry.HARDWARE_MASSES["hip_hardware"]
+    thigh_hardware: float = anthropometry.HARDWARE_MASSES["thigh_hardware"]
+    shank_hardware: float = anthropometry.HARDWARE_MASSES["shank_hardware"]
+    ankle_hardware: float = anthropometry.HARDWARE_MASSES["ankle_hardware"]
+    foot_hardware: float = anthropometry.HARDWARE_MASSES["foot_hardware"]
     sex: str = "male"
     wearer: bool = True
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -114,7 +115,7 @@ class Body:
         Raises:
             FormatError: The file is no TOML, or a name or value in it is not accepted.
         """
-        values = tomlfile.read(path)
+        values = toml_file.read(path)
         try:
             if "limits" in values:
                 raise DescriptionError("joint ranges go into the table [limits_deg], in degrees")
@@ -131,7 +132,7 @@ class Body:
         """
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name != "limits"}
         degrees = {name: [round(math.degrees(x), 12) for x in pair] for name, pair in self.limits.items()}
-        tomlfile.write(
+        toml_file.write(
             path,
             "A body for exo_pin: lengths in metres, masses in kilograms, joint ranges in degrees.\n"
             "A size that is deleted follows from stature, mass and sex; one that stands here does not.",
@@ -224,19 +225,21 @@ def both_sides(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def _average(stature: float, mass: float, sex: str) -> dict[str, float]:
     """Sizes rounded to a micrometre and masses to a milligram, so that files and URDF show plain numbers."""
-    lengths = tables.LENGTHS | tables.DESIGN_LENGTHS
+    lengths = anthropometry.LENGTHS | anthropometry.DESIGN_LENGTHS
     names = ("thigh", "shank", "ankle_height", "foot_length", "foot_width", "hip_width")
     average = {name: lengths[name] * stature for name in names}
-    average["heel"] = tables.HEEL_FRACTION * average["foot_length"]
-    average["ball"] = tables.BALL_FRACTION * average["foot_length"]
-    average["waist_width"] = tables.HIP_BREADTH * stature + tables.WAIST_CLEARANCE
-    average |= {f"{name}_mass": tables.DE_LEVA[sex][name].mass * mass for name in ("thigh", "shank", "foot")}
+    average["heel"] = anthropometry.HEEL_FRACTION * average["foot_length"]
+    average["ball"] = anthropometry.BALL_FRACTION * average["foot_length"]
+    average["waist_width"] = anthropometry.HIP_BREADTH * stature + anthropometry.WAIST_CLEARANCE
+    average |= {
+        f"{name}_mass": anthropometry.DE_LEVA[sex][name].mass * mass for name in ("thigh", "shank", "foot")
+    }
     return {name: round(value, 6) for name, value in average.items()}
 
 
 def _check_sex(sex: object) -> None:
-    if not isinstance(sex, str) or sex not in tables.DE_LEVA:
-        raise UnknownNameError("sex", str(sex), tables.DE_LEVA)
+    if not isinstance(sex, str) or sex not in anthropometry.DE_LEVA:
+        raise UnknownNameError("sex", str(sex), anthropometry.DE_LEVA)
 
 
 def _radians(degrees: object) -> dict[str, tuple[float, float]]:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.anatomy import tables
+from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.body import Body, Leg
 from exo_pin.anatomy.names import SIDES
 
@@ -99,7 +99,7 @@ def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Part]]:
 
 
 def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Part]]:
-    table = tables.DE_LEVA[body.sex]
+    table = anthropometry.DE_LEVA[body.sex]
     along = table["foot"].centre * leg.foot_length - leg.heel
     foot = _segment("foot", body.sex, leg.foot_mass, leg.foot_length, (along, 0.0, -leg.ankle_height / 2))
     sagittal, transverse, longitudinal = np.diag(foot.inertia)  # the foot's long axis lies forward
@@ -116,8 +116,8 @@ def _upper_body(body: Body) -> list[Part]:
     """Head, trunk and hanging arms above the hips, scaled to the mass that the legs leave."""
     if not body.wearer:
         return []
-    table = tables.DE_LEVA[body.sex]
-    size = {name: fraction * body.stature for name, fraction in tables.DESIGN_LENGTHS.items()}
+    table = anthropometry.DE_LEVA[body.sex]
+    size = {name: fraction * body.stature for name, fraction in anthropometry.DESIGN_LENGTHS.items()}
     top = size["trunk"]  # shoulder line above the mid-hip
     head = top + (1 - table["head"].centre) * size["head"]
     heights = {"trunk": top * (1 - table["trunk"].centre), "head": head}
@@ -138,7 +138,7 @@ def _waist(body: Body) -> Part:
 
 def _segment(name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]) -> Part:
     """A segment of de Leva's table: principal inertias mass * (radius of gyration * length)^2."""
-    radii = np.array(tables.DE_LEVA[sex][name].gyration) * length
+    radii = np.array(anthropometry.DE_LEVA[sex][name].gyration) * length
     return Part(mass, np.array(centre), np.diag(mass * radii**2))
 
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from exo_pin.anatomy.anthropometry import LIMITS_DEG
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, joint
-from exo_pin.anatomy.tables import LIMITS_DEG
 from exo_pin.errors import DescriptionError, UnknownNameError
 
 

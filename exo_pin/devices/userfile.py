@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from exo_pin.anatomy import tomlfile
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
 from exo_pin.devices.choices import CHOSEN, Actuator
 from exo_pin.devices.record import Device
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
+from exo_pin.safe import toml_file
 
 _TEXT, _NAMES = "a text", "a list of names"
 _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
@@ -42,7 +42,7 @@ def load(path: str | Path) -> Device:
     Raises:
         FormatError: The file is no TOML, or a name or value in it is not accepted.
     """
-    values = tomlfile.read(path)
+    values = toml_file.read(path)
     try:
         return _device(values)
     except ExoPinError as error:

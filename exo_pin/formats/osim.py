@@ -12,7 +12,7 @@ import numpy as np
 
 from exo_pin.errors import FormatError
 from exo_pin.formats.osimjoint import Array, Axis, Joint, Vector, X, Y, Z, offset
-from exo_pin.formats.safexml import load_xml
+from exo_pin.safe.xml_reader import load_xml
 
 GROUND = "ground"
 FIXED = {

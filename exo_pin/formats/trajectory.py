@@ -14,9 +14,9 @@ from exo_pin.files import read_text, write_text
 from exo_pin.formats import pelvisnotes
 from exo_pin.formats.notes import Note, Notes, read, split, to_gait, to_lines
 from exo_pin.formats.reading import Reading
-from exo_pin.formats.safeyaml import load_yaml
 from exo_pin.formats.table import Array
 from exo_pin.gait import Gait
+from exo_pin.safe.yaml_reader import load_yaml
 
 REMARK = "# JointTrajectory [rad, rad/s, rad/s^2, s]; positive is what the joint's name says."
 START = "start"

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from exo_pin.anatomy import tomlfile
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.retarget.axes import SIGNED
 from exo_pin.retarget.targets import Target
+from exo_pin.safe import toml_file
 
 _TEXT, _AXIS = "a text", f"one of {', '.join(SIGNED)}"
 _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
@@ -33,7 +33,7 @@ def load(path: str | Path) -> Target:
     Raises:
         FormatError: The file is no TOML, or a name or value in it is not accepted.
     """
-    values = tomlfile.read(path)
+    values = toml_file.read(path)
     for name, value in values.items():
         if name not in _KINDS:
             raise FormatError(path, str(UnknownNameError("entry of a robot's record", name, _KINDS)))

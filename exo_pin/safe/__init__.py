@@ -1,0 +1,1 @@
+"""Files from strangers: XML, YAML and TOML, read within limits of size and depth."""
