@@ -8,9 +8,9 @@ from pathlib import Path
 from types import MappingProxyType
 
 from exo_pin.anatomy.names import JOINTS
-from exo_pin.devices.choices import CHOSEN, Actuator
-from exo_pin.devices.record import Device, both
-from exo_pin.devices.userfile import load
+from exo_pin.devices.actuator import CHOSEN, Actuator
+from exo_pin.devices.device import Device, both
+from exo_pin.devices.device_file import load
 from exo_pin.errors import FormatError, UnknownNameError
 
 _CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
-from exo_pin.devices.choices import CHOSEN, Actuator
-from exo_pin.devices.record import Device
+from exo_pin.devices.actuator import CHOSEN, Actuator
+from exo_pin.devices.device import Device
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.safe import toml_file
 

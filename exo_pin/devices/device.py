@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any
 
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
-from exo_pin.devices.choices import CHOSEN, RANGES, Actuator
+from exo_pin.devices.actuator import CHOSEN, RANGES, Actuator
 from exo_pin.errors import DescriptionError, UnknownNameError
 
 SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
