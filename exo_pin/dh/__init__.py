@@ -9,8 +9,8 @@ Both know only a `Body` and the meaning of the joint names. All frames are paral
 """
 
 from exo_pin.dh.craig import Row, ends, modified_dh, table
-from exo_pin.dh.device import of_device
-from exo_pin.dh.leg import chain
+from exo_pin.dh.device_tree import of_device
+from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.recursion import Link, recursion, tree
 
 __all__ = ["Link", "Row", "chain", "ends", "modified_dh", "of_device", "recursion", "table", "tree"]
