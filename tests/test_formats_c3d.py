@@ -12,8 +12,8 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, c3dheader, load_gait, load_markers, save_gait
-from exo_pin.formats.markers import to_z_up
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait.trial import to_z_up
 
 ANGLE = 1e-5  # [deg] C3D holds 32-bit numbers
 LENGTH = 1e-6  # [m]

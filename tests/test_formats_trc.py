@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Markers, load_gait, load_markers
-from exo_pin.formats.markers import UPS, to_z_up
+from exo_pin.gait.trial import UPS, to_z_up
 
 NAMES = ["Anna:LASI", "RASI"]
 EXACT = 1e-15

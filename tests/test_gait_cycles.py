@@ -17,10 +17,10 @@ from exo_pin.gait import (
     against_normal,
     cycles,
     doubts,
+    force_plates,
     normal,
     normative_gait,
     norms,
-    plates,
     spatiotemporal,
 )
 from exo_pin.kinematics import spatiotemporal as of_walk
@@ -238,22 +238,22 @@ def force(*spans, n=1001):
 
 def test_contacts_are_told_by_the_threshold_between_the_samples():
     time = np.linspace(0, 1, 11)
-    found = plates.contacts(time, [0, 0, 0, 40, 500, 500, 500, 30, 0, 0, 0])
+    found = force_plates.contacts(time, [0, 0, 0, 40, 500, 500, 500, 30, 0, 0, 0])
     assert len(found) == 1
     assert found[0].strike == pytest.approx(0.25)
     assert found[0].off == pytest.approx(0.7 + 0.1 / 3)
 
 
 def test_contacts_at_the_ends_are_open_and_short_ones_are_noise():
-    first, second = plates.contacts(*force((-1, 0.3), (0.5, 0.52), (1.2, 3)))
+    first, second = force_plates.contacts(*force((-1, 0.3), (0.5, 0.52), (1.2, 3)))
     assert first.strike is None
     assert first.off == pytest.approx(0.3, abs=2e-3)
     assert second.strike == pytest.approx(1.2, abs=2e-3)
     assert second.off is None
-    joined = plates.contacts(*force((0.2, 0.5), (0.52, 0.9)))
+    joined = force_plates.contacts(*force((0.2, 0.5), (0.52, 0.9)))
     assert len(joined) == 1
     with pytest.raises(GaitError, match="expected finite numbers"):
-        plates.contacts([0, 1], [np.nan, 0])
+        force_plates.contacts([0, 1], [np.nan, 0])
 
 
 def changed(joint, change):

@@ -10,7 +10,7 @@ import pytest
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Plate, load_forces, load_gait, load_markers
-from exo_pin.gait import Gait, normative_gait, plates
+from exo_pin.gait import Gait, force_plates, normative_gait
 from exo_pin.kinematics import events, plate_events, poses, spatiotemporal, with_plates
 from exo_pin.robot import load_robot
 
@@ -113,7 +113,7 @@ def test_plates_correct_the_events_that_they_saw_and_leave_the_others(shared):
     robot = load_robot(Body.from_stature(1.34, mass=33))
     bare = dataclasses.replace(stated, events=())
     found = with_plates(robot, bare, trial.plates)
-    measured = [e for e in found.events if e.source == plates.SOURCE]
+    measured = [e for e in found.events if e.source == force_plates.SOURCE]
     assert len(measured) == 4
     assert len(found.events) == len(events(robot, bare))  # corrected, none twice
     strides = [np.diff(times(w.events, "heel_strike", side)) for w in (found, stated) for side in SIDES]

@@ -10,8 +10,8 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Markers, load_gait, load_markers
-from exo_pin.formats.markers import UPS, to_z_up
 from exo_pin.gait import normative_gait
+from exo_pin.gait.trial import UPS, to_z_up
 from exo_pin.kinematics import poses
 from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
 from exo_pin.markers.fit import human, resized

@@ -11,13 +11,13 @@ from typing import NamedTuple
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, opensim, trajectory, trc
 from exo_pin.formats.forces import load_forces
-from exo_pin.formats.markers import Markers, Plate
 from exo_pin.formats.poses import Poses, load_poses, save_poses
 from exo_pin.formats.presets import OPENSIM, PRESETS
 from exo_pin.formats.presets import preset as named
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.torques import load_torques
 from exo_pin.gait import Gait
+from exo_pin.gait.trial import Markers, Plate
 
 __all__ = [
     "FORMATS",

@@ -19,13 +19,13 @@ from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_bytes
 from exo_pin.formats import c3dheader, c3dintel, c3dnumbers
 from exo_pin.formats.c3devents import foot_events
-from exo_pin.formats.markers import Markers, Plate, to_z_up, unique
 from exo_pin.formats.notes import Notes, to_gait
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.table import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.trial import Markers, Plate, to_z_up, unique
 from exo_pin.signals import longest_run
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.markers import Plate
 from exo_pin.formats.pelvis import OURS
 from exo_pin.formats.storage import read_storage
 from exo_pin.formats.table import Array, Table
+from exo_pin.gait.trial import Plate
 
 FORCE = re.compile(
     r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"

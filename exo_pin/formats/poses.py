@@ -16,7 +16,7 @@ from exo_pin.formats.csvtable import read_csv, write_csv
 from exo_pin.formats.notes import Notes, read
 from exo_pin.formats.posecolumns import pose_names, pose_values, read_poses
 from exo_pin.gait import Event
-from exo_pin.gait.checks import check_events, check_poses, check_time, frozen
+from exo_pin.gait.validation import check_events, check_poses, check_time, frozen
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_lines
-from exo_pin.formats.markers import Markers, unique
 from exo_pin.formats.table import Array
+from exo_pin.gait.trial import Markers, unique
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 METRES |= {"millimeters": 1e-3, "centimeters": 1e-2, "meters": 1.0, "millimetres": 1e-3, "metres": 1.0}

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
-from exo_pin.gait.checks import read_only
 from exo_pin.gait.event import EVENT_KINDS, Event
+from exo_pin.gait.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
-from exo_pin.gait.walk import Gait
+from exo_pin.gait.validation import read_only
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
-from exo_pin.gait.checks import check_time, frozen
 from exo_pin.gait.event import Event
+from exo_pin.gait.validation import check_time, frozen
 
 Array = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from exo_pin.gait.gait import Gait
 from exo_pin.gait.rigid import about
-from exo_pin.gait.walk import Gait
 
 STRAIGHT = 0.5
 """Length of the mean of the unit headings below which a walk has no direction: it turns around."""

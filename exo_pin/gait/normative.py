@@ -11,8 +11,8 @@ from exo_pin.anatomy import MOVEMENTS, Body
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import schwartz2008_sd as spread
 from exo_pin.gait.event import Event
+from exo_pin.gait.gait import Gait
 from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
-from exo_pin.gait.walk import Gait
 
 Array = NDArray[np.float64]
 

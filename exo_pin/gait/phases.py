@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.gait.walk import Gait
+from exo_pin.gait.gait import Gait
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

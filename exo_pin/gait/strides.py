@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.gait.event import between
-from exo_pin.gait.walk import Gait
+from exo_pin.gait.gait import Gait
 
 Array = NDArray[np.float64]
 

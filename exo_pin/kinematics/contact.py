@@ -11,9 +11,9 @@ import numpy.typing as npt
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.bouts import walking
-from exo_pin.gait.steps import Feet
+from exo_pin.gait.step_checks import Feet
 from exo_pin.gait.strides import strides, turns_of
+from exo_pin.gait.walking_bouts import walking
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 

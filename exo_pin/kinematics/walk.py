@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.errors import GaitError
-from exo_pin.gait import Event, Gait, plates
+from exo_pin.gait import Event, Gait, force_plates
 from exo_pin.gait.event import EVENT_KINDS
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
@@ -82,12 +82,12 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Eve
     soles = _soles(robot, gait).mean(axis=2)
     found = []
     for plate in forces:
-        for contact in plates.contacts(plate.time, plate.force[:, 2]):
+        for contact in force_plates.contacts(plate.time, plate.force[:, 2]):
             side = _whose(gait.time, soles, plate, contact)
             times = {"heel_strike": contact.strike, "toe_off": contact.off}
             for kind, t in times.items():
                 if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
-                    found.append(Event(t, kind, side, plates.SOURCE))
+                    found.append(Event(t, kind, side, force_plates.SOURCE))
     if not found:
         raise GaitError("no contact of a foot with a force plate was found")
     return tuple(sorted(found, key=lambda event: event.time))
@@ -130,7 +130,7 @@ def _same(one: Event, other: Event) -> bool:
     return (one.kind, one.side) == (other.kind, other.side) and abs(one.time - other.time) < SAME
 
 
-def _whose(time: Array, soles: Array, plate: Plate, contact: plates.Contact) -> str:
+def _whose(time: Array, soles: Array, plate: Plate, contact: force_plates.Contact) -> str:
     """The side of the foot that is nearest to the force all the time, or "" where that is not clear."""
     rows = slice(contact.start, contact.stop)
     t, point = plate.time[rows], plate.point[rows, :2]

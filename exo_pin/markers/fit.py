@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exo_pin import ik
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
-from exo_pin.gait.doubts import RANGES
+from exo_pin.gait.plausibility import RANGES
 from exo_pin.kinematics import poses
 from exo_pin.markers.scale import Placement, Sizes, body_of, placement, rigid_fit
 from exo_pin.markers.sets import MarkerSet

@@ -14,7 +14,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.events import SOURCE, candidates, check_apart, check_turns
-from exo_pin.gait.steps import Feet, Step, agreed, in_the_air, steps_of
+from exo_pin.gait.step_checks import Feet, Step, agreed, in_the_air, steps_of
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait import curves, rigid
-from exo_pin.gait.checks import (
+from exo_pin.gait.event import Event, stance
+from exo_pin.gait.validation import (
     check_angles,
     check_events,
     check_poses,
@@ -21,7 +22,6 @@ from exo_pin.gait.checks import (
     frozen,
     read_only,
 )
-from exo_pin.gait.event import Event, stance
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from exo_pin.errors import GaitError
-from exo_pin.gait.checks import check_time, frozen
 from exo_pin.gait.curves import runs
+from exo_pin.gait.validation import check_time, frozen
 
 Array = NDArray[np.float64]
 

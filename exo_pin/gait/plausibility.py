@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS, SIDES
-from exo_pin.gait.walk import Gait
+from exo_pin.gait.gait import Gait
 
 Array = NDArray[np.float64]
 
