@@ -11,7 +11,8 @@ import pytest
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
-from exo_pin.formats import c3d, c3dheader, load_gait, load_markers, save_gait
+from exo_pin.formats import load_gait, load_markers, save_gait
+from exo_pin.formats.c3d import header, reader
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.gait.trial import to_z_up
 
@@ -50,17 +51,19 @@ def test_a_pelvis_without_a_stated_vertical_stands_upright_and_one_seen_in_part_
     trial = load_markers(path)
     for up in ("+y", "-x"):  # a laboratory with another vertical, which the file does not state
         turned = trial.turned(to_z_up(up).T)
-        base = c3d.model_angles(path, dataclasses.replace(turned, up="")).base
+        base = reader.model_angles(path, dataclasses.replace(turned, up="")).base
         np.testing.assert_allclose(base[:, 2, 3], gait.base[:, 2, 3], atol=LENGTH)
         np.testing.assert_allclose(base[:, 2, :3], gait.base[:, 2, :3], atol=LENGTH)
     angles = {name: values.copy() for name, values in trial.angles.items()}
     position = trial.position.copy()
     for values in (*angles.values(), position):
         values[:10] = np.nan
-    part = c3d.model_angles(path, dataclasses.replace(trial, angles=angles, position=position))
+    part = reader.model_angles(path, dataclasses.replace(trial, angles=angles, position=position))
     np.testing.assert_allclose(part.base, gait.base[10:], atol=LENGTH)
     position[50] = np.nan
-    assert c3d.model_angles(path, dataclasses.replace(trial, angles=angles, position=position)).base is None
+    assert (
+        reader.model_angles(path, dataclasses.replace(trial, angles=angles, position=position)).base is None
+    )
 
 
 def test_uneven_samples_are_refused_and_nothing_is_written(tmp_path):
@@ -117,12 +120,12 @@ def test_damaged_files_are_refused_in_one_line(written, tmp_path, change, match)
 
 def test_every_truncation_is_noticed_by_the_header_check(written, tmp_path):
     data = written[1].read_bytes()
-    layout = c3dheader.check(written[1], data)
+    layout = header.check(written[1], data)
     assert (layout.frames, layout.first, layout.rate) == (100, 51, pytest.approx(100))
     used = len(data) - 512  # the last block may be padding
     for size in range(0, used, 997):
         with pytest.raises(FormatError):
-            c3dheader.check(written[1], data[:size])
+            header.check(written[1], data[:size])
 
 
 @pytest.mark.parametrize(
@@ -135,10 +138,10 @@ def test_every_truncation_is_noticed_by_the_header_check(written, tmp_path):
     ],
 )
 def test_a_crash_a_hang_or_a_glutton_stays_in_the_child(written, tmp_path, monkeypatch, code, match):
-    fake = tmp_path / "c3dchild.py"
+    fake = tmp_path / "child_process.py"
     fake.write_text(code)
-    monkeypatch.setattr(c3d, "SECONDS", 0.5)
-    monkeypatch.setattr(c3d, "CHILD", fake)
+    monkeypatch.setattr(reader, "SECONDS", 0.5)
+    monkeypatch.setattr(reader, "CHILD", fake)
     start = time.perf_counter()
     with pytest.raises(FormatError, match=match):
         load_gait(written[1])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from exo_pin.formats.c3devents import foot_events
+from exo_pin.formats.c3d.foot_contacts import foot_events
 
 SPAN = (0.0, 100.0)
 

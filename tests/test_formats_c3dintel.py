@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from exo_pin.formats import c3dheader, load_gait, load_markers, save_gait
-from exo_pin.formats.c3dintel import to_intel
-from exo_pin.formats.c3dnumbers import floats
+from exo_pin.formats import load_gait, load_markers, save_gait
+from exo_pin.formats.c3d import header
+from exo_pin.formats.c3d.byte_order import to_intel
+from exo_pin.formats.c3d.number_formats import floats
 from exo_pin.gait import Gait, normative_gait
 
 DEC, MIPS = 85, 86
@@ -85,8 +86,8 @@ def test_a_written_walk_is_the_same_from_every_machine(tmp_path, machine):
     other.write_bytes(foreign(data, machine))
     np.testing.assert_array_equal(load_gait(other).q, load_gait(tmp_path / "intel.c3d").q)
     assert len(load_gait(other).events) == 1
-    turned = to_intel(other, other.read_bytes(), c3dheader.check(other, other.read_bytes()))
-    assert c3dheader.check(other, turned) == c3dheader.check(other, data)
+    turned = to_intel(other, other.read_bytes(), header.check(other, other.read_bytes()))
+    assert header.check(other, turned) == header.check(other, data)
 
 
 def test_vax_numbers_are_those_of_the_manual():

@@ -15,7 +15,8 @@ import yaml
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
-from exo_pin.formats import FORMATS, load_gait, pelvisnotes, save_gait
+from exo_pin.formats import FORMATS, load_gait, save_gait
+from exo_pin.formats.tables import pelvis_notes
 from exo_pin.gait import Gait, normative_gait
 
 ROUND_TRIP = 1e-12  # [rad, m] text keeps every digit; degrees and back cost about 1e-16
@@ -85,7 +86,7 @@ def test_a_trajectory_inside_another_ros_message_is_read(tmp_path, walk, around)
 def test_the_pelvis_travels_beside_the_message_and_must_be_whole(tmp_path, walk, suffix):
     path = tmp_path / f"walk{suffix}"
     save_gait(walk, path)
-    line = next(line for line in pelvisnotes.to_lines(walk.base))
+    line = next(line for line in pelvis_notes.to_lines(walk.base))
     whole = path.read_text()
     assert line in whole
     for wrong, match in (

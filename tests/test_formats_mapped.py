@@ -167,7 +167,7 @@ def test_our_own_columns_need_no_mapping_in_a_tsv(path):
 
 
 def test_a_table_of_ten_million_rows_is_refused_before_it_takes_memory(path, monkeypatch):
-    monkeypatch.setattr("exo_pin.formats.table.MOST_ROWS", 1000)
+    monkeypatch.setattr("exo_pin.formats.tables.numeric_table.MOST_ROWS", 1000)
     path.write_text("t,K\n" + "0,1\n" * 2000)
     with pytest.raises(FormatError, match="2002 rows; at most 1000 are read"):
         load_gait(path, mapping={"K": "left_knee_flexion"}, units="deg")

@@ -10,10 +10,10 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats import load_gait, save_gait
-from exo_pin.formats.pelvis import from_opensim, to_opensim, usual
-from exo_pin.formats.posecolumns import rotations
+from exo_pin.formats.opensim.pelvis_axes import from_opensim, to_opensim, usual
+from exo_pin.formats.opensim.storage import read_storage
 from exo_pin.formats.presets import OPENSIM, PRESETS
-from exo_pin.formats.storage import read_storage
+from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.gait import Gait, normative_gait
 
 ROUND_TRIP = 1e-12  # [rad, m]

@@ -12,10 +12,10 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats import load_gait
-from exo_pin.formats.convention import by_model
-from exo_pin.formats.opensim import COLUMNS, LEGS
-from exo_pin.formats.osim import load_model
-from exo_pin.formats.pelvis import OURS
+from exo_pin.formats.opensim.convention import by_model
+from exo_pin.formats.opensim.coordinates import COLUMNS, LEGS
+from exo_pin.formats.opensim.osim_model import load_model
+from exo_pin.formats.opensim.pelvis_axes import OURS
 
 MANGLED = 40  # a second each; by hand it were thousands
 EXACT = 1e-12  # [rad, m] the same numbers on another way

@@ -8,7 +8,7 @@ import pytest
 from exo_pin.anatomy import FEET
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Poses, load_poses, save_poses
-from exo_pin.formats.posecolumns import quaternions, rotations
+from exo_pin.formats.tables.pose_columns import quaternions, rotations
 from exo_pin.gait import Event
 
 ROUND_TRIP = 1e-12  # [m, -]

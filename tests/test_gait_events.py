@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exo_pin.errors import GaitError
-from exo_pin.formats.posecolumns import rotations
+from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.gait import zeni
 
 PERIOD = 1.1

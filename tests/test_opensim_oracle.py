@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.formats import load_gait, save_gait
-from exo_pin.formats.opensim import LEGS, TRANSLATIONS
+from exo_pin.formats.opensim.coordinates import LEGS, TRANSLATIONS
 from exo_pin.gait import Gait, normative_gait
 
 opensim = pytest.importorskip("opensim", reason="OpenSim's Python package is not installed (extra `oracle`)")

@@ -12,8 +12,8 @@ from exo_pin import signals, viewer
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import load_gait, load_torques, save_gait
-from exo_pin.formats.c3d import read_outputs
-from exo_pin.formats.opensim import preset_of
+from exo_pin.formats.c3d.reader import read_outputs
+from exo_pin.formats.opensim.coordinates import preset_of
 from exo_pin.gait import Torques, normative_gait
 from exo_pin.robot import load_robot
 

@@ -31,7 +31,7 @@ def given(args: argparse.Namespace) -> Torques | None:
     if args.torques is None:
         return None
     from exo_pin.formats import load_torques
-    from exo_pin.formats.opensim import preset_of
+    from exo_pin.formats.opensim.coordinates import preset_of
 
     kind = Path(args.torques).suffix.lower()
     if kind not in _OPENSIM:

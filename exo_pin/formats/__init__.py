@@ -9,13 +9,16 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import c3d, c3dwrite, gait_csv, gait_npz, opensim, trajectory, trc
-from exo_pin.formats.forces import load_forces
-from exo_pin.formats.poses import Poses, load_poses, save_poses
+from exo_pin.formats import gait_npz, joint_trajectory, trc
+from exo_pin.formats.c3d import reader, writer
+from exo_pin.formats.opensim import coordinates
+from exo_pin.formats.opensim.external_forces import load_forces
 from exo_pin.formats.presets import OPENSIM, PRESETS
 from exo_pin.formats.presets import preset as named
 from exo_pin.formats.reading import Reading
-from exo_pin.formats.torques import load_torques
+from exo_pin.formats.tables import gait_csv
+from exo_pin.formats.tables.pose_table import Poses, load_poses, save_poses
+from exo_pin.formats.torque_files import load_torques
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import Markers, Plate
 
@@ -61,18 +64,23 @@ _ALL = (
         "exo_pin table with tabs, or any with a mapping", (".tsv",), gait_csv.read_tabs, gait_csv.write_tabs
     ),
     Format("any table with a mapping", (".txt",), gait_csv.read_tabs, None),
-    Format("OpenSim coordinates", (".mot", ".sto"), opensim.read_gait, opensim.write_gait),
+    Format("OpenSim coordinates", (".mot", ".sto"), coordinates.read_gait, coordinates.write_gait),
     Format("NumPy archive", (".npz",), gait_npz.read_gait, gait_npz.write_gait),
-    Format("ROS JointTrajectory, YAML", (".yaml", ".yml"), trajectory.read_yaml, trajectory.write_yaml),
-    Format("C3D model angles (Plug-in Gait)", (".c3d",), c3d.read_gait, c3dwrite.write_gait),
-    Format("ROS JointTrajectory, JSON", (".json",), trajectory.read_json, trajectory.write_json),
+    Format(
+        "ROS JointTrajectory, YAML",
+        (".yaml", ".yml"),
+        joint_trajectory.read_yaml,
+        joint_trajectory.write_yaml,
+    ),
+    Format("C3D model angles (Plug-in Gait)", (".c3d",), reader.read_gait, writer.write_gait),
+    Format("ROS JointTrajectory, JSON", (".json",), joint_trajectory.read_json, joint_trajectory.write_json),
 )
 
 FORMATS = MappingProxyType({suffix: entry for entry in _ALL for suffix in entry.suffixes})
 """File name ending -> format."""
 
 MARKER_FORMATS: Mapping[str, Callable[[Path], Markers]] = MappingProxyType(
-    {".c3d": c3d.read_markers, ".trc": trc.read_markers}
+    {".c3d": reader.read_markers, ".trc": trc.read_markers}
 )
 """File name ending -> reader of a marker trial."""
 
@@ -116,7 +124,7 @@ def load_gait(
     if path.suffix.lower() in MARKER_FORMATS and path.suffix.lower() not in FORMATS:
         raise FormatError(path, "holds markers, not angles; exo_pin.markers.load_walk makes a walk of them")
     read = _format(path, FORMATS | dict.fromkeys(MARKER_FORMATS, FORMATS[".c3d"])).read
-    if read is not opensim.read_gait and (model or pelvis_order):
+    if read is not coordinates.read_gait and (model or pelvis_order):
         raise FormatError(
             path, "a model (.osim) or an order of the pelvis's turns is for .mot and .sto files"
         )
@@ -144,7 +152,7 @@ def is_markers(path: str | Path) -> bool:
         FormatError: A file that may hold both cannot be read.
     """
     kind = Path(path).suffix.lower()
-    return kind in MARKER_FORMATS and (kind not in FORMATS or not c3d.has_angles(load_markers(path)))
+    return kind in MARKER_FORMATS and (kind not in FORMATS or not reader.has_angles(load_markers(path)))
 
 
 def save_gait(gait: Gait, path: str | Path, *, preset: str | None = None) -> None:
@@ -164,7 +172,7 @@ def save_gait(gait: Gait, path: str | Path, *, preset: str | None = None) -> Non
     if preset is not None:
         if path.suffix.lower() not in (".mot", ".sto"):
             raise FormatError(path, "only .mot and .sto files are written for a model's preset")
-        opensim.write_gait(gait, path, habit=named(preset, OPENSIM))
+        coordinates.write_gait(gait, path, habit=named(preset, OPENSIM))
         return
     write = _format(path, {suffix: entry for suffix, entry in FORMATS.items() if entry.write}).write
     assert write is not None  # the formats that cannot be written are left out

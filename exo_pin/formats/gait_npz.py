@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from exo_pin import files
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError
-from exo_pin.formats.notes import MOST_EVENTS, Notes, to_gait
 from exo_pin.formats.reading import Reading
+from exo_pin.formats.tables.notes import MOST_EVENTS, Notes, to_gait
 from exo_pin.gait import Event, Gait
 
 MOST_ARRAYS = 64

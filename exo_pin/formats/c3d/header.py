@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.c3dnumbers import PROCESSORS, floats, integers
+from exo_pin.formats.c3d.number_formats import PROCESSORS, floats, integers
 
 BLOCK = 512
 KEY = 0x50

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.pelvis import OURS
-from exo_pin.formats.storage import read_storage
-from exo_pin.formats.table import Array, Table
+from exo_pin.formats.opensim.pelvis_axes import OURS
+from exo_pin.formats.opensim.storage import read_storage
+from exo_pin.formats.tables.numeric_table import Array, Table
 from exo_pin.gait.trial import Plate
 
 FORCE = re.compile(

@@ -8,11 +8,11 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.files import read_lines
-from exo_pin.formats import mapped
-from exo_pin.formats.csvtable import read_csv, write_csv
-from exo_pin.formats.notes import Notes, read, to_gait
-from exo_pin.formats.posecolumns import pose_names, pose_values, read_poses
 from exo_pin.formats.reading import Reading
+from exo_pin.formats.tables import mapped
+from exo_pin.formats.tables.csv_table import read_csv, write_csv
+from exo_pin.formats.tables.notes import Notes, read, to_gait
+from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 from exo_pin.gait import Gait
 
 TIME = "time_s"

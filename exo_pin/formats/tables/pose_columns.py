@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.formats.table import Table
+from exo_pin.formats.tables.numeric_table import Table
 
 Array = NDArray[np.float64]
 

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_bytes
-from exo_pin.formats import c3dheader, c3dintel, c3dnumbers
-from exo_pin.formats.c3devents import foot_events
-from exo_pin.formats.notes import Notes, to_gait
+from exo_pin.formats.c3d import byte_order, header, number_formats
+from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
-from exo_pin.formats.table import Array
+from exo_pin.formats.tables.notes import Notes, to_gait
+from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.trial import Markers, Plate, to_z_up, unique
@@ -37,7 +37,7 @@ SECONDS = 60
 MEGABYTES = 2048
 """What the child may have besides a multiple of the file."""
 
-CHILD = Path(__file__).with_name("c3dchild.py")
+CHILD = Path(__file__).with_name("child_process.py")
 
 PIG = PRESETS["vicon-pig"]
 PELVIS = ("PELO", "PELA", "PELL", "PELP")
@@ -94,8 +94,8 @@ def read_outputs(path: Path, names: Sequence[str]) -> tuple[Array, dict[str, Arr
 def _read(path: Path) -> tuple[Array, dict[str, NDArray[Any]], dict[str, int]]:
     """Time `(n,)` [s], what ezc3d reads, and where each point stands."""
     data = read_bytes(path)
-    layout = c3dheader.check(path, data)
-    found = _child(path) if layout.processor == c3dnumbers.INTEL else _turned(path, data, layout)
+    layout = header.check(path, data)
+    found = _child(path) if layout.processor == number_formats.INTEL else _turned(path, data, layout)
     shape = found["points"].shape
     if shape != (3, layout.points, layout.frames) or len(found["labels"]) < layout.points:
         raise FormatError(
@@ -176,11 +176,11 @@ def _nearest_axis(direction: Array) -> str:
     return f"{'+' if direction[k] > 0 else '-'}{'xyz'[k]}" if clear else ""
 
 
-def _turned(path: Path, data: bytes, layout: c3dheader.Layout) -> dict[str, NDArray[Any]]:
+def _turned(path: Path, data: bytes, layout: header.Layout) -> dict[str, NDArray[Any]]:
     """What ezc3d reads of a file by a DEC or MIPS machine, after its numbers were turned into Intel's."""
     with tempfile.TemporaryDirectory() as folder:
         turned = Path(folder) / "intel.c3d"
-        turned.write_bytes(c3dintel.to_intel(path, data, layout))
+        turned.write_bytes(byte_order.to_intel(path, data, layout))
         return _child(path, turned)
 
 

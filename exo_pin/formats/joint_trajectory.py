@@ -11,10 +11,10 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.files import read_text, write_text
-from exo_pin.formats import pelvisnotes
-from exo_pin.formats.notes import Note, Notes, read, split, to_gait, to_lines
 from exo_pin.formats.reading import Reading
-from exo_pin.formats.table import Array
+from exo_pin.formats.tables import pelvis_notes
+from exo_pin.formats.tables.notes import Note, Notes, read, split, to_gait, to_lines
+from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait import Gait
 from exo_pin.safe.yaml_reader import load_yaml
 
@@ -96,7 +96,7 @@ def write_json(gait: Gait, path: Path) -> None:
 def _notes(gait: Gait) -> list[str]:
     start = float(gait.time[0])
     notes = to_lines(Notes(gait.events, gait.periodic, gait.source))
-    return [*notes, f"# {START}: {start!r}", *pelvisnotes.to_lines(gait.base)]
+    return [*notes, f"# {START}: {start!r}", *pelvis_notes.to_lines(gait.base)]
 
 
 def _from_start(gait: Gait) -> list[float]:
@@ -148,7 +148,7 @@ def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> G
         time += float(start[0].value) if start else 0.0
     except ValueError:
         raise FormatError(path, f"start is {start[0].value[:40]!r}, expected seconds") from None
-    base = pelvisnotes.read_base(path, notes, len(time))
+    base = pelvis_notes.read_base(path, notes, len(time))
     return to_gait(path, time, q[:, columns], base, read(path, notes))
 
 

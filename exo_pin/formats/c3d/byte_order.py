@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin.formats.c3dheader import Layout, records
-from exo_pin.formats.c3dnumbers import INTEL, floats, integers
+from exo_pin.formats.c3d.header import Layout, records
+from exo_pin.formats.c3d.number_formats import INTEL, floats, integers
 
 WHOLE, REAL = 2, 4
 """Kinds of parameters that hold numbers, and the bytes of one."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from exo_pin.formats.osimjoint import Axis, Joint, X, Y, Z
+from exo_pin.formats.opensim.osim_joint import Axis, Joint, X, Y, Z
 
 Array = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.notes import Note
-from exo_pin.formats.posecolumns import pose_names, pose_values, read_poses
-from exo_pin.formats.table import Table
+from exo_pin.formats.tables.notes import Note
+from exo_pin.formats.tables.numeric_table import Table
+from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from exo_pin.errors import FormatError
 from exo_pin.files import read_lines, write_text
-from exo_pin.formats.notes import Note, split
-from exo_pin.formats.table import Array, Table, parse, rows_of_text
+from exo_pin.formats.tables.notes import Note, split
+from exo_pin.formats.tables.numeric_table import Array, Table, parse, rows_of_text
 
 LONGEST_HEADER = 10_000
 """Lines; a header is a dozen."""

@@ -9,13 +9,13 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import FormatError, GaitError
-from exo_pin.formats import c3d
-from exo_pin.formats.csvtable import read_csv
-from exo_pin.formats.notes import read
-from exo_pin.formats.opensim import KNEES, LEGS
+from exo_pin.formats.c3d import reader
+from exo_pin.formats.opensim.coordinates import KNEES, LEGS
+from exo_pin.formats.opensim.storage import read_storage
 from exo_pin.formats.presets import OPENSIM, preset
-from exo_pin.formats.storage import read_storage
-from exo_pin.formats.table import Array, Table
+from exo_pin.formats.tables.csv_table import read_csv
+from exo_pin.formats.tables.notes import read
+from exo_pin.formats.tables.numeric_table import Array, Table
 from exo_pin.gait.torques import Torques
 
 UNIT = "_torque_nm"
@@ -93,7 +93,7 @@ def _read_c3d(path: Path, name: str | None, mass: float | None) -> Torques:
     if name not in (None, "vicon-pig"):
         raise FormatError(path, f"preset {name!r} is not for this kind of file: its moments are vicon-pig's")
     outputs = [f"{side[0].upper()}{output}" for side in SIDES for output, _ in MOMENTS.values()]
-    time, found, told = c3d.read_outputs(path, tuple(dict.fromkeys(outputs)))
+    time, found, told = reader.read_outputs(path, tuple(dict.fromkeys(outputs)))
     if not found:
         raise FormatError(
             path, f"no joint moments; expected Plug-in Gait's outputs {', '.join(outputs[::4])} ..."

@@ -1,0 +1,1 @@
+"""C3D trials: markers, model angles, events and force plates."""

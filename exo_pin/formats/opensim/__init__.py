@@ -1,0 +1,1 @@
+"""OpenSim files: coordinates (.mot, .sto), models (.osim), ground reaction forces."""

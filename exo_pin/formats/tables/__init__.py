@@ -1,0 +1,1 @@
+"""Numeric tables in text files: our own gaits and poses, and anybody's table of angles."""
