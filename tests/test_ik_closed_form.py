@@ -11,10 +11,10 @@ from exo_pin import ik
 from exo_pin.anatomy import FEET, HIP_ORDERS, Body
 from exo_pin.errors import DescriptionError
 from exo_pin.ik import chain, closed_form, single
-from exo_pin.ik.leg import leg
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.kinematics import jacobian, poses
 from exo_pin.robot import load_robot, load_urdf
+from exo_pin.robot.leg_axes import leg
 
 ROUNDING = 1e-14  # [m, rad] a dozen products of numbers of size one
 POSE = 1e-12  # [m, rad] the promise

@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import FEET
-from exo_pin.ik.leg import leg
 from exo_pin.robot import Robot
+from exo_pin.robot.leg_axes import leg
 
 Array = npt.NDArray[np.float64]
 

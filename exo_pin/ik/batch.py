@@ -10,12 +10,12 @@ import numpy.typing as npt
 from exo_pin.ik import batch_dls, chain, closed_form, single
 from exo_pin.ik import nearly as start
 from exo_pin.ik.ideal import IdealLeg
-from exo_pin.ik.leg import Leg
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.reach import slack, slack_of
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 FEW = 13

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from exo_pin.ik import normal
 from exo_pin.ik.chain import Matrix, Number, components, motion
-from exo_pin.ik.leg import Leg
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.starts import starts
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]

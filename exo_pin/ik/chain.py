@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.leg import Leg
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 Number = Array | float

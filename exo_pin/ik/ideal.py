@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.leg import Leg
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 STRAIGHT = 1e-9

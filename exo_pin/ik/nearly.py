@@ -13,7 +13,7 @@ import numpy.typing as npt
 from exo_pin.ik import chain, closed_form
 from exo_pin.ik.chain import Matrix, Number
 from exo_pin.ik.ideal import IdealLeg
-from exo_pin.ik.leg import Leg
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 ROUNDS = 4

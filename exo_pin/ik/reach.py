@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.ik.chain import Matrix, Number, components, mix
-from exo_pin.ik.leg import Leg
 from exo_pin.ik.targets import CHUNK, Goal
+from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
 

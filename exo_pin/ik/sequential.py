@@ -7,13 +7,13 @@ import numpy.typing as npt
 
 from exo_pin.ik.branches import branches
 from exo_pin.ik.dls import best_try, descend
-from exo_pin.ik.leg import leg
 from exo_pin.ik.limb import Limb, narrowed
 from exo_pin.ik.pace import pace
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.sheet import SOLVED_BY, Sheet
 from exo_pin.ik.targets import Goal
+from exo_pin.robot.leg_axes import leg
 
 Array = npt.NDArray[np.float64]
 

@@ -14,7 +14,6 @@ from exo_pin.ik import batch
 from exo_pin.ik.batch_limb import together
 from exo_pin.ik.branches import branches
 from exo_pin.ik.ideal import IdealLeg, ideal
-from exo_pin.ik.leg import Leg, leg
 from exo_pin.ik.limb import Limb
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.reach import slack_of
@@ -22,6 +21,7 @@ from exo_pin.ik.result import Track
 from exo_pin.ik.sequential import follow
 from exo_pin.ik.settings import Auto, ClosedForm, Dls
 from exo_pin.ik.sheet import Sheet
+from exo_pin.robot.leg_axes import Leg, leg
 
 Array = npt.NDArray[np.float64]
 NEARLY = 0.2

@@ -11,9 +11,9 @@ import pinocchio as pin
 
 from exo_pin.errors import DescriptionError
 from exo_pin.gait.rigid import about
-from exo_pin.ik.leg import nearest_point
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
+from exo_pin.robot.leg_axes import nearest_point
 
 Array = npt.NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import pinocchio as pin
 from exo_pin import description, devices
 from exo_pin.anatomy import Body
 from exo_pin.errors import DescriptionError, UnknownNameError
-from exo_pin.robot import parser
+from exo_pin.robot import urdf_parser
 from exo_pin.robot.model import Robot
 
 Array = npt.NDArray[np.float64]
@@ -76,7 +76,7 @@ def load_urdf(
     text = _text(source)
     if path is None and text is not source:
         path = source
-    model = parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
+    model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
     names = tuple(model.names)[2 if base == "floating" else 1 :]
     for name in names:
         if model.joints[model.getJointId(name)].nq != 1:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from exo_pin.ik.leg import leg
+from exo_pin.robot.leg_axes import leg
 
 
 class Eaik:

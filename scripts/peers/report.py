@@ -13,10 +13,10 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.ik import chain, closed_form
-from exo_pin.ik.leg import leg
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
+from exo_pin.robot.leg_axes import leg
 from peers import PEERS, calibrated, jobs
 from peers import plots as drawn
 from peers.tables import goals, head, reference, table, version

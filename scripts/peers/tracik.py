@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin.ik.leg import leg
+from exo_pin.robot.leg_axes import leg
 
 
 class TracIk:
