@@ -16,7 +16,7 @@ from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.kinematics import events, poses
-from exo_pin.kinematics.stand import travel
+from exo_pin.kinematics.resting_stance import travel
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

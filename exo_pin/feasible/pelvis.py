@@ -10,7 +10,7 @@ from exo_pin.feasible.limits import JointDemand
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import derivative
 from exo_pin.gait.rigid import angle_of
-from exo_pin.kinematics.stand import stand
+from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
-from exo_pin.kinematics.stand import travel
+from exo_pin.kinematics.resting_stance import travel
 from exo_pin.report import palette, panels, skeleton, svg
 from exo_pin.report.axis import ticks
 from exo_pin.report.blocks import Drawing
