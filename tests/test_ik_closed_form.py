@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from exo_pin import ik
 from exo_pin.anatomy import FEET, HIP_ORDERS, Body
 from exo_pin.errors import DescriptionError
-from exo_pin.ik import chain, closed_form, single
+from exo_pin.ik.leg import closed_form, forward, scalar
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.kinematics import jacobian, poses
 from exo_pin.robot import load_robot, load_urdf
@@ -57,9 +57,11 @@ def test_the_chain_agrees_with_pinocchio(robot, rng):
     q = uniform(robot, rng, 50)
     for foot in FEET:
         own = leg(robot, foot)
-        R, p = chain.components(poses(robot, q, (foot,))[:, 0, :3, :3], poses(robot, q, (foot,))[:, 0, :3, 3])
-        tip, J = chain.motion(own, q[:, own.columns].T)
-        distance, angle = chain.errors(tip, R, p)
+        R, p = forward.components(
+            poses(robot, q, (foot,))[:, 0, :3, :3], poses(robot, q, (foot,))[:, 0, :3, 3]
+        )
+        tip, J = forward.motion(own, q[:, own.columns].T)
+        distance, angle = forward.errors(tip, R, p)
         assert distance.max() < ROUNDING
         assert angle.max() < ROUNDING
         np.testing.assert_allclose(
@@ -71,8 +73,8 @@ def test_angles_between_rotations_are_exact_where_they_are_tiny():
     tiny = 1e-12
     turned = [[1.0, -tiny, 0.0], [tiny, 1.0, 0.0], [0.0, 0.0, 1.0]]
     eye = np.eye(3)
-    tip = chain.Tip([[np.array([x]) for x in row] for row in turned], [np.zeros(1)] * 3)
-    _, angle = chain.errors(tip, [[np.array([x]) for x in row] for row in eye], [np.zeros(1)] * 3)
+    tip = forward.Tip([[np.array([x]) for x in row] for row in turned], [np.zeros(1)] * 3)
+    _, angle = forward.errors(tip, [[np.array([x]) for x in row] for row in eye], [np.zeros(1)] * 3)
     assert angle[0] == pytest.approx(tiny, rel=1e-6)
 
 
@@ -135,9 +137,9 @@ def test_one_frame_in_plain_math_gives_what_many_frames_give(robot, rng):
     for foot in FEET:
         own = leg(robot, foot)
         ideal = closed_form_of(own)
-        formula = single.formula(ideal, own.lower, own.upper)
+        formula = scalar.formula(ideal, own.lower, own.upper)
         T = poses(robot, q, (foot,))[:, 0]
-        many = closed_form.angles(ideal, *chain.components(T[:, :3, :3], T[:, :3, 3])).T
+        many = closed_form.angles(ideal, *forward.components(T[:, :3, :3], T[:, :3, 3])).T
         one = np.array([formula(pose.ravel().tolist()) for pose in T])
         np.testing.assert_allclose(one, np.clip(many, own.lower, own.upper), atol=1e-9)
 
@@ -189,7 +191,7 @@ def test_no_frame_with_an_error_is_called_converged_and_none_leaves_the_limits(r
     reached = np.empty_like(T)
     for k, foot in enumerate(FEET):
         own = leg(robot, foot)
-        tip = chain.forward(own, track.q[:, own.columns].T)
+        tip = forward.forward(own, track.q[:, own.columns].T)
         reached[:, k, :3, :3] = np.moveaxis(np.array(tip.R), -1, 0)
         reached[:, k, :3, 3] = np.array(tip.p).T
     apart = np.linalg.norm(reached[..., :3, 3] - T[..., :3, 3], axis=-1).max(axis=1)

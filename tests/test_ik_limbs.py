@@ -12,13 +12,13 @@ from exo_pin.compare.motion import corners
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
 from exo_pin.ik import solvers
-from exo_pin.ik.batch_limb import descend
-from exo_pin.ik.bend import bend
-from exo_pin.ik.branches import branches, motion
-from exo_pin.ik.limb import residual
-from exo_pin.ik.pace import HASTE, pace
+from exo_pin.ik.least_squares.cost import aims, pull
+from exo_pin.ik.least_squares.second_order import bend
+from exo_pin.ik.least_squares.step_limit import HASTE, pace
+from exo_pin.ik.least_squares.subtree_kernel import descend
 from exo_pin.ik.problem import problem
-from exo_pin.ik.pull import aims, pull
+from exo_pin.ik.subtree import residual
+from exo_pin.ik.subtree_arrays import branches, motion
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 

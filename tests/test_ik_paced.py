@@ -10,7 +10,7 @@ from exo_pin.compare import Conditions, best, projected, robot_for, walk
 from exo_pin.compare.motion import corners, pace, sole_targets
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
-from exo_pin.ik.paced import paced
+from exo_pin.ik.least_squares.velocity_limited import paced
 from exo_pin.kinematics import poses
 
 SPARED = 1.001  # the penalty leaves about 1e-5 rad of a step of 0.1 rad

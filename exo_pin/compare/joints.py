@@ -15,7 +15,7 @@ from exo_pin.anatomy import FEET, MOVEMENTS, Body
 from exo_pin.compare.motion import BETTER, SWEEPS, Walk, corners, sole_targets, walk
 from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
-from exo_pin.ik.batch_limb import settle
+from exo_pin.ik.least_squares.subtree_kernel import settle
 from exo_pin.kinematics import poses
 
 Array = npt.NDArray[np.float64]

@@ -23,7 +23,7 @@ from exo_pin.anatomy.hip import hip_angles
 from exo_pin.devices import Device
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
-from exo_pin.ik.paced import paced
+from exo_pin.ik.least_squares.velocity_limited import paced
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot, load_robot

@@ -3,8 +3,8 @@
 from exo_pin.ik.online import Online
 from exo_pin.ik.result import Solution, Track
 from exo_pin.ik.settings import Auto, ClosedForm, Dls
+from exo_pin.ik.solve import SOLVERS, solve, track
 from exo_pin.ik.targets import Points, Pose, Position
-from exo_pin.ik.tracking import SOLVERS, solve, track
 
 __all__ = [
     "SOLVERS",

@@ -13,11 +13,11 @@ import pinocchio as pin
 
 from exo_pin.anatomy import FEET
 from exo_pin.errors import DescriptionError
-from exo_pin.ik.dls import descend
-from exo_pin.ik.limb import limbs
+from exo_pin.ik.least_squares.single_sample import descend
+from exo_pin.ik.leg.scalar import Formula, formula
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.single import Formula, formula
 from exo_pin.ik.solvers import NEARLY, closed_form_of
+from exo_pin.ik.subtree import limbs
 from exo_pin.ik.targets import Goal, pose_array
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import AXES, Leg, leg

@@ -11,7 +11,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.errors import DescriptionError
-from exo_pin.ik.limb import Limb, limbs
+from exo_pin.ik.subtree import Limb, limbs
 from exo_pin.ik.targets import Goal, Target, check, pose_array
 from exo_pin.robot import Robot
 

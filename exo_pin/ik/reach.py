@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.chain import Matrix, Number, components, mix
+from exo_pin.ik.leg.forward import Matrix, Number, components, mix
 from exo_pin.ik.targets import CHUNK, Goal
 from exo_pin.robot.leg_axes import Leg
 

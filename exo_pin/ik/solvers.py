@@ -10,17 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.errors import DescriptionError
-from exo_pin.ik import batch
-from exo_pin.ik.batch_limb import together
-from exo_pin.ik.branches import branches
-from exo_pin.ik.ideal import IdealLeg, ideal
-from exo_pin.ik.limb import Limb
+from exo_pin.ik.least_squares.sequential import follow
+from exo_pin.ik.least_squares.subtree_kernel import together
+from exo_pin.ik.leg import batch
+from exo_pin.ik.leg.constants import IdealLeg, ideal
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.reach import slack_of
 from exo_pin.ik.result import Track
-from exo_pin.ik.sequential import follow
 from exo_pin.ik.settings import Auto, ClosedForm, Dls
-from exo_pin.ik.sheet import Sheet
+from exo_pin.ik.solution_buffer import Sheet
+from exo_pin.ik.subtree import Limb
+from exo_pin.ik.subtree_arrays import branches
 from exo_pin.robot.leg_axes import Leg, leg
 
 Array = npt.NDArray[np.float64]

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin import ik
-from exo_pin.ik import chain, closed_form
+from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
@@ -163,7 +163,7 @@ def raw(robot, work, budget):
             ideal = closed_form_of(own)
             for a in range(0, len(q), CHUNK):
                 part = slice(a, a + CHUNK)
-                R, p = chain.components(T[part, :3, :3], T[part, :3, 3])
+                R, p = forward.components(T[part, :3, :3], T[part, :3, 3])
                 for column, angles in zip(own.columns, closed_form.angles(ideal, R, p), strict=True):
                     q[part, column] = angles
         return q

@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import batch_dls, chain, closed_form, single
-from exo_pin.ik import nearly as start
-from exo_pin.ik.ideal import IdealLeg
+from exo_pin.ik.least_squares import leg_kernel
+from exo_pin.ik.leg import approximate_seed as start
+from exo_pin.ik.leg import closed_form, forward, scalar
+from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.reach import slack, slack_of
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.sheet import SOLVED_BY, Sheet
+from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
 from exo_pin.robot.leg_axes import Leg
 
@@ -31,13 +32,13 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
     low, high = leg.lower[:, None], leg.upper[:, None]
     for a in range(0, task.n, CHUNK):
         part = slice(a, a + CHUNK)
-        R, p = chain.components(goal.R[part], goal.p[part, 0])
+        R, p = forward.components(goal.R[part], goal.p[part, 0])
         q = one_by_one(goal, leg, ideal) if task.n <= FEW else closed_form.angles(ideal, R, p)
         np.minimum(np.maximum(q, low, out=q), high, out=q)
-        distance, angle = chain.errors(chain.forward(leg, q), R, p)
+        distance, angle = forward.errors(forward.forward(leg, q), R, p)
         if np.isnan(distance).any():  # the ankle in the hip: no direction to take angles from
             q = np.where(np.isnan(q), 0.5 * (low + high), q)
-            distance, angle = chain.errors(chain.forward(leg, q), R, p)
+            distance, angle = forward.errors(forward.forward(leg, q), R, p)
         sheet.errors[0, part, f], sheet.errors[1, part, f] = distance, angle
         sheet.slack[part, f] = slack(leg, R, p)
         for j, column in enumerate(leg.columns):
@@ -47,7 +48,7 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
 def one_by_one(goal: Goal, leg: Leg, ideal: IdealLeg) -> Array:
     """The closed form in plain `math` for a handful of samples, angles (6, n)."""
     assert goal.R is not None  # as above
-    solve = single.formula(ideal, leg.lower, leg.upper)
+    solve = scalar.formula(ideal, leg.lower, leg.upper)
     rows = np.zeros((len(goal.p), 4, 4))
     rows[:, :3, :3], rows[:, :3, 3] = goal.R, goal.p[:, 0]
     return np.array([solve(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
@@ -62,7 +63,7 @@ def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:
         return
     spot, settings = np.ix_(rough, leg.columns), Dls(tolerance=ROUNDING, max_iterations=2, restarts=0)
     asked, near = (goal.R[rough], goal.p[rough, 0]), np.ones(len(rough), dtype=bool)
-    better = batch_dls.answers(leg, *asked, sheet.q[spot].T, settings, reachable=near)
+    better = leg_kernel.answers(leg, *asked, sheet.q[spot].T, settings, reachable=near)
     gain = better.errors.sum(axis=0) < own[:, rough].sum(axis=0)
     sheet.q[spot] = np.where(gain, better.q, sheet.q[spot].T).T
     sheet.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
@@ -74,7 +75,7 @@ def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> No
     assert goal.R is not None  # as above
     for a in range(0, task.n, CHUNK):
         part = slice(a, a + CHUNK)
-        q = start.angles(leg, ideal, *chain.components(goal.R[part], goal.p[part, 0]))
+        q = start.angles(leg, ideal, *forward.components(goal.R[part], goal.p[part, 0]))
         for j, column in enumerate(leg.columns):
             sheet.q[part, column] = q[j]
     sheet.errors[:, :, f] = np.inf
@@ -97,7 +98,7 @@ def descent(
     begin = sheet.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
     near = np.asarray(~(sheet.slack[rest, f] < -leg.doubt))
     own = weighted(settings, goal.weight[0, 0], goal.rotation_weight)
-    answer = batch_dls.answers(leg, goal.R[rest], goal.p[rest, 0], begin, own, reachable=near)
+    answer = leg_kernel.answers(leg, goal.R[rest], goal.p[rest, 0], begin, own, reachable=near)
     sheet.q[np.ix_(rest, leg.columns)] = answer.q.T
     sheet.errors[:, rest, f] = answer.errors
     sheet.steps[rest] += answer.steps

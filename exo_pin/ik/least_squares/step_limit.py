@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.branches import Branches
+from exo_pin.ik.subtree_arrays import Branches
 from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]

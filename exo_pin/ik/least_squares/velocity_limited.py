@@ -15,10 +15,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.batch_limb import SETTLED, curvature
-from exo_pin.ik.branches import Branches, branches
+from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
+from exo_pin.ik.least_squares.subtree_kernel import SETTLED, curvature
 from exo_pin.ik.problem import problem
-from exo_pin.ik.pull import Aim, Pull, aims, pull
+from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import Target
 from exo_pin.robot import Robot
 

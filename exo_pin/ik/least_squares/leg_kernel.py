@@ -13,10 +13,10 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import normal
-from exo_pin.ik.chain import Matrix, Number, components, motion
+from exo_pin.ik.least_squares import normal_equations
+from exo_pin.ik.least_squares.restarts import starts
+from exo_pin.ik.leg.forward import Matrix, Number, components, motion
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.starts import starts
 from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
@@ -148,9 +148,9 @@ class _Pool:
     def step(self, leg: Leg, settings: Dls) -> None:
         """One damped step of every sample; a step that does not help is taken back and damped more."""
         low, high = leg.lower[:, None], leg.upper[:, None]
-        A, g = normal.normal(self.J, self.e)
+        A, g = normal_equations.normal(self.J, self.e)
         A[range(6), range(6)] += np.minimum(self.factor, 1e30) * self.cost + _FLOOR
-        x = normal.box_steps(A, g, low - self.q, high - self.q)
+        x = normal_equations.box_steps(A, g, low - self.q, high - self.q)
         trial = np.minimum(np.maximum(self.q + x, low), high)
         e, J, errors = self.goal.residual(leg, trial, settings)
         cost = _square(e)

@@ -20,9 +20,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.batch_dls import turn
-from exo_pin.ik.branches import Branches, Pose, motion, times
+from exo_pin.ik.least_squares.leg_kernel import turn
 from exo_pin.ik.settings import Dls
+from exo_pin.ik.subtree_arrays import Branches, Pose, motion, times
 from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]

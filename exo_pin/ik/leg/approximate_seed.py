@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import chain, closed_form
-from exo_pin.ik.chain import Matrix, Number
-from exo_pin.ik.ideal import IdealLeg
+from exo_pin.ik.leg import closed_form, forward
+from exo_pin.ik.leg.constants import IdealLeg
+from exo_pin.ik.leg.forward import Matrix, Number
 from exo_pin.robot.leg_axes import Leg
 
 Array = npt.NDArray[np.float64]
@@ -27,8 +27,8 @@ def angles(leg: Leg, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
     best, least = np.empty((6, np.size(p[0]))), np.full(np.size(p[0]), np.inf)
     for k in range(ROUNDS):
         q = closed_form.angles(ideal, R_asked, p_asked)
-        tip = chain.forward(leg, q)
-        distance, angle = chain.errors(tip, R, p)
+        tip = forward.forward(leg, q)
+        distance, angle = forward.errors(tip, R, p)
         better = distance + angle < least
         best, least = np.where(better, q, best), np.where(better, distance + angle, least)
         if k + 1 < ROUNDS:
@@ -39,10 +39,10 @@ def angles(leg: Leg, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
 
 
 def _moved(
-    R: Matrix, p: list[Number], tip: chain.Tip, R_asked: Matrix, p_asked: list[Number]
+    R: Matrix, p: list[Number], tip: forward.Tip, R_asked: Matrix, p_asked: list[Number]
 ) -> tuple[Matrix, list[Number]]:
     """Target times inverse of what was reached times what was asked."""
-    back = chain.transposed(tip.R)
+    back = forward.transposed(tip.R)
     turn = [[_dot(row, column) for column in zip(*R_asked, strict=True)] for row in back]
     shift = [_dot(row, [a - b for a, b in zip(p_asked, tip.p, strict=True)]) for row in back]
     R_next = [[_dot(row, column) for column in zip(*turn, strict=True)] for row in R]

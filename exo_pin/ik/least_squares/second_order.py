@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.ik.limb import AXES, Limb
-from exo_pin.ik.pull import bow
+from exo_pin.ik.least_squares.cost import bow
+from exo_pin.ik.subtree import AXES, Limb
 from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]

@@ -14,15 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import normal
-from exo_pin.ik.branches import Branches, branches
-from exo_pin.ik.limb import Limb
+from exo_pin.ik.least_squares import normal_equations
+from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
+from exo_pin.ik.least_squares.restarts import starts
+from exo_pin.ik.least_squares.sequential import reachable
 from exo_pin.ik.problem import Problem, problem
-from exo_pin.ik.pull import Aim, Pull, aims, pull
-from exo_pin.ik.sequential import reachable
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.sheet import SOLVED_BY, Sheet
-from exo_pin.ik.starts import starts
+from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
+from exo_pin.ik.subtree import Limb
+from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import CHUNK, Goal, Target
 from exo_pin.robot import Robot
 
@@ -183,7 +183,7 @@ class _Pool:
         slope = self.now.slope
         free = ((self.q > self.low) | (slope > 0.0)) & ((self.q < self.high) | (slope < 0.0))
         A = curvature(self.now, damping, free & (self.low < self.high))
-        x = normal.box_steps(A, np.where(free, slope, 0.0), self.low - self.q, self.high - self.q)
+        x = normal_equations.box_steps(A, np.where(free, slope, 0.0), self.low - self.q, self.high - self.q)
         trial = np.minimum(np.maximum(self.q + x, self.low), self.high)
         then = pull(limb, self.aimed, trial)
         better = then.cost < self.now.cost
@@ -208,4 +208,4 @@ def curvature(now: Pull, damping: Array, free: Bools) -> Array:
     plain = np.where(block, now.normal, 0.0)
     plain[span, span] += np.where(free, damping, 1.0)
     whole = plain + np.where(block, now.rest, 0.0)
-    return np.where(normal.definite(whole), whole, plain)
+    return np.where(normal_equations.definite(whole), whole, plain)

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.ik.limb import Limb
+from exo_pin.ik.subtree import Limb
 
 Array = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]

@@ -15,11 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.bend import bend, definite
-from exo_pin.ik.boxstep import box_step
-from exo_pin.ik.limb import Limb, residual
+from exo_pin.ik.least_squares.box_qp import box_step
+from exo_pin.ik.least_squares.restarts import starts
+from exo_pin.ik.least_squares.second_order import bend, definite
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.starts import starts
+from exo_pin.ik.subtree import Limb, residual
 from exo_pin.ik.targets import Goal
 
 Array = npt.NDArray[np.float64]

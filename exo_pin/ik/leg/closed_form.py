@@ -16,8 +16,8 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.chain import Matrix, Number, mix, times, transposed
-from exo_pin.ik.ideal import IdealLeg
+from exo_pin.ik.leg.constants import IdealLeg
+from exo_pin.ik.leg.forward import Matrix, Number, mix, times, transposed
 
 Array = npt.NDArray[np.float64]
 _TURN = 2.0 * np.pi

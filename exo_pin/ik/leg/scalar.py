@@ -13,10 +13,10 @@ from math import acos, asin, atan, atan2, copysign, sqrt
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik import closed_form
-from exo_pin.ik.chain import Matrix
-from exo_pin.ik.closed_form import STRAIGHT
-from exo_pin.ik.ideal import IdealLeg
+from exo_pin.ik.leg import closed_form
+from exo_pin.ik.leg.closed_form import STRAIGHT
+from exo_pin.ik.leg.constants import IdealLeg
+from exo_pin.ik.leg.forward import Matrix
 
 Array = npt.NDArray[np.float64]
 Angles = tuple[float, float, float, float, float, float]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.ik.branches import branches
-from exo_pin.ik.dls import best_try, descend
-from exo_pin.ik.limb import Limb, narrowed
-from exo_pin.ik.pace import pace
+from exo_pin.ik.least_squares.single_sample import best_try, descend
+from exo_pin.ik.least_squares.step_limit import pace
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.sheet import SOLVED_BY, Sheet
+from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
+from exo_pin.ik.subtree import Limb, narrowed
+from exo_pin.ik.subtree_arrays import branches
 from exo_pin.ik.targets import Goal
 from exo_pin.robot.leg_axes import leg
 
