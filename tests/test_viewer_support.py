@@ -9,11 +9,11 @@ from exo_pin import viewer
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, Gait, normative_gait
+from exo_pin.ground import stance
+from exo_pin.ground.placement import motion
+from exo_pin.ground.support import DEEPEST
 from exo_pin.retarget import retarget
 from exo_pin.robot import load_robot
-from exo_pin.viewer import contact
-from exo_pin.viewer.motion import motion
-from exo_pin.viewer.support import DEEPEST
 
 TOUCH = 2e-3  # [m]: a standing sole this close to the ground touches it
 SMOOTH = 15.0  # [m/s^2]: the pelvis of fast walkers reaches half of this; a jerk far exceeds it
@@ -29,7 +29,7 @@ def robot():
 
 
 def standing(shown, side):
-    return contact.samples(shown.stance, side, shown.time)
+    return stance.samples(shown.stance, side, shown.time)
 
 
 @pytest.mark.parametrize("speed", SPEEDS)
@@ -37,7 +37,7 @@ def test_no_corner_sinks_and_the_standing_foot_touches(robot, speed):
     shown = motion(robot, normative_gait(speed))
     assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
     left, right = standing(shown, "left"), standing(shown, "right")
-    low = contact.lowest_corners(shown.corners)
+    low = stance.lowest_corners(shown.corners)
     assert low["left"][left & ~right].max() < TOUCH
     assert low["right"][right & ~left].max() < TOUCH
 
@@ -103,7 +103,7 @@ def test_a_still_support_moves_the_walk_as_a_whole(robot):
 def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
     shown = motion(robot, normative_gait())
     both = standing(shown, "left") & standing(shown, "right")
-    low = contact.lowest_corners(shown.corners)
+    low = stance.lowest_corners(shown.corners)
     assert shown.support.gap == pytest.approx(np.maximum(low["left"], low["right"])[both].max())
     assert shown.support.sink == pytest.approx(-shown.corners[..., 2].min())
     for number in (shown.support.gap, shown.support.sink, shown.support.slide, shown.support.hover):

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import about
+from exo_pin.ground.placement import Motion, motion
 from exo_pin.robot import Robot
 from exo_pin.viewer.facts import Chain, Group
 from exo_pin.viewer.links import Linkage, linkage
-from exo_pin.viewer.motion import Motion, motion
 from exo_pin.viewer.protocol import Command, Material
 from exo_pin.viewer.toes import toes
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import FEET
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
+from exo_pin.ground.placement import Motion
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves, furniture
@@ -20,7 +21,6 @@ from exo_pin.viewer.actor import Actor
 from exo_pin.viewer.cycles import cycles
 from exo_pin.viewer.facts import Facts, Group, Marks, Scene
 from exo_pin.viewer.humanoid import humanoid
-from exo_pin.viewer.motion import Motion
 from exo_pin.viewer.play import Play
 from exo_pin.viewer.walker import walker
 from exo_pin.viewer.world import ROOT, boxes, world

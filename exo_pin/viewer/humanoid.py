@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.gait import Gait
+from exo_pin.ground.placement import Motion, moved, stood
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Machine, Retargeted, retarget
 from exo_pin.viewer import curves
@@ -18,7 +19,6 @@ from exo_pin.viewer.facts import Chain, Grip, Group
 from exo_pin.viewer.links import Linkage
 from exo_pin.viewer.looks import bare, dressed, highest, plate
 from exo_pin.viewer.meshes import Meshes
-from exo_pin.viewer.motion import Motion, moved, stood
 from exo_pin.viewer.play import Play
 from exo_pin.viewer.protocol import Material
 from exo_pin.viewer.soles import Sole, soles

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from exo_pin.ground.placement import moved
 from exo_pin.kinematics import poses
 from exo_pin.retarget import Machine
 from exo_pin.viewer import solids
 from exo_pin.viewer.links import GREY, Linkage, linkage
 from exo_pin.viewer.meshes import Meshes
-from exo_pin.viewer.motion import moved
 from exo_pin.viewer.protocol import Command, Material, draw, mesh, place, translation
 from exo_pin.viewer.soles import Sole
 

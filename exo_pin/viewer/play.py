@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exo_pin.gait import Gait
+from exo_pin.ground.placement import Motion
 from exo_pin.robot import Robot
 from exo_pin.viewer.actor import Actor
 from exo_pin.viewer.curves import Tab
 from exo_pin.viewer.facts import Grip
-from exo_pin.viewer.motion import Motion
 from exo_pin.viewer.world import Mount
 
 

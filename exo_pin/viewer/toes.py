@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.devices import TOES
-from exo_pin.viewer.contact import lowest_corners
-from exo_pin.viewer.motion import Motion
+from exo_pin.ground.placement import Motion
+from exo_pin.ground.stance import lowest_corners
 
 Array = NDArray[np.float64]
 

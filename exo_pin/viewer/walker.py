@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from exo_pin.anatomy import FEET, SIDES
 from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
+from exo_pin.ground.placement import motion
 from exo_pin.robot import Robot
 from exo_pin.viewer import curves
 from exo_pin.viewer.actor import Actor, aligned, exoskeleton, ghost, in_step
 from exo_pin.viewer.facts import Grip
 from exo_pin.viewer.links import Linkage, linkage
-from exo_pin.viewer.motion import motion
 from exo_pin.viewer.play import Play
 from exo_pin.viewer.wearer import wearer as person
 from exo_pin.viewer.world import ROOT, mounts

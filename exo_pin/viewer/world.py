@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.gait import Gait
+from exo_pin.ground.placement import Motion
 from exo_pin.robot import Robot
 from exo_pin.viewer import furniture
 from exo_pin.viewer.facts import Box, Marks
 from exo_pin.viewer.links import Linkage
-from exo_pin.viewer.motion import Motion
 from exo_pin.viewer.protocol import Command
 from exo_pin.viewer.thinning import polyline
 

@@ -18,7 +18,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
-from exo_pin.viewer.contact import Intervals, lowest_corners, samples
+from exo_pin.ground.stance import Intervals, lowest_corners, samples
 
 Array = NDArray[np.float64]
 

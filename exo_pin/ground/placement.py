@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, FEET
 from exo_pin.gait import Gait
+from exo_pin.ground import stance
+from exo_pin.ground.support import WHO, Support, support
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
-from exo_pin.viewer import contact
-from exo_pin.viewer.support import WHO, Support, support
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ class Motion:
     feet: Array
     corners: Array
     com: Array
-    stance: contact.Intervals
+    stance: stance.Intervals
     estimated: bool
     support: Support
 
@@ -82,8 +82,8 @@ def stood(
         UnknownNameError: There is no such style.
     """
     corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
-    known = contact.from_events(gait)
-    stance = known or contact.estimated(gait, contact.lowest_corners(corners))
+    known = stance.from_events(gait)
+    stance = known or stance.estimated(gait, stance.lowest_corners(corners))
     carried = support(style, gait, given, corners, stance, who)
     base = carried.base
     shown = base[:, None] @ T_pelvis
