@@ -14,9 +14,9 @@ from exo_pin.gait import normative_gait
 from exo_pin.gait.trial import UPS, to_z_up
 from exo_pin.kinematics import poses
 from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
-from exo_pin.markers.fit import human, resized
+from exo_pin.markers.body_scale import THIGH, Sizes, body_of, placement
+from exo_pin.markers.marker_fit import human, resized
 from exo_pin.markers.reconstruct import with_sacrum
-from exo_pin.markers.scale import THIGH, Sizes, body_of, placement
 from exo_pin.robot import load_robot
 
 SIZES = Sizes(0.17, (0.86, 0.85), THIGH, (0.29, 0.29), 0.08)

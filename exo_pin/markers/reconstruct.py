@@ -17,9 +17,9 @@ from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, load_markers
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import UPS, to_z_up
-from exo_pin.markers.fit import few, learnt, solved
-from exo_pin.markers.scale import Placement, body_of, first_sizes
-from exo_pin.markers.sets import MarkerSet, marker_set, plain
+from exo_pin.markers.body_scale import Placement, body_of, first_sizes
+from exo_pin.markers.marker_fit import few, learnt, solved
+from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
 from exo_pin.robot import Robot
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.errors import DescriptionError, GaitError
 from exo_pin.gait.rigid import nearest_pose
-from exo_pin.markers.sets import MarkerSet
+from exo_pin.markers.marker_sets import MarkerSet
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError
 from exo_pin.gait.plausibility import RANGES
 from exo_pin.kinematics import poses
-from exo_pin.markers.scale import Placement, Sizes, body_of, placement, rigid_fit
-from exo_pin.markers.sets import MarkerSet
+from exo_pin.markers.body_scale import Placement, Sizes, body_of, placement, rigid_fit
+from exo_pin.markers.marker_sets import MarkerSet
 from exo_pin.robot import Robot, load_robot
 
 Array = NDArray[np.float64]
