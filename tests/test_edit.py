@@ -9,7 +9,7 @@ import pytest
 
 from exo_pin import edit
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
-from exo_pin.edit.check import JOLT
+from exo_pin.edit.recheck import JOLT
 from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS, Gait, curves, normative_gait
 from exo_pin.kinematics import poses, spatiotemporal

@@ -102,7 +102,7 @@ def _print(checks: dict[str, Recheck]) -> None:
     """What each adjustment asks of the joints, and which of them the last one asks too much."""
     import numpy as np
 
-    from exo_pin.edit.check import JOLT
+    from exo_pin.edit.recheck import JOLT
 
     rows = [
         [

@@ -1,9 +1,9 @@
 """Everyday adjustments of a walk: time, amplitude, stride and clearance, sides, blends, ramps, smoothing."""
 
 from exo_pin.edit.blend import blended, transitioned
-from exo_pin.edit.check import Recheck, recheck
-from exo_pin.edit.feet import strided
-from exo_pin.edit.joints import filtered, mirrored, ramped, retimed, scaled, symmetrised
+from exo_pin.edit.joint_curves import filtered, mirrored, ramped, retimed, scaled, symmetrised
+from exo_pin.edit.recheck import Recheck, recheck
+from exo_pin.edit.stride_scaling import strided
 
 __all__ = [
     "Recheck",

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import CORNERS, FEET, SIDES
-from exo_pin.edit.check import JOLT
-from exo_pin.edit.pelvis import drop, softened
+from exo_pin.edit.pelvis_drop import drop, softened
+from exo_pin.edit.recheck import JOLT
 from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
