@@ -10,8 +10,8 @@ from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, Body
 from exo_pin.anatomy.hip import hip_angles
 from exo_pin.cli import main
-from exo_pin.compare import PHASES, Conditions, best, compare, dressed, projected, table, walk
-from exo_pin.compare.motion import SETTINGS, corners, robot_for
+from exo_pin.compare import PHASES, Conditions, best, compare, comparison_table, dressed, projected, walk
+from exo_pin.compare.best_motion import SETTINGS, corners, robot_for
 from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
@@ -184,11 +184,11 @@ def test_without_events_phases_are_unknown_and_errors_are_not():
 
 
 def test_the_table_has_every_device_least_loss_first(held):
-    rows = table.rows(held)
+    rows = comparison_table.rows(held)
     assert {row[0] for row in rows} == set(DEVICES)
     losses = [float(row[2]) for row in rows]
     assert losses == sorted(losses)
-    assert all(len(row) == len(table.COLUMNS) for row in rows)
+    assert all(len(row) == len(comparison_table.COLUMNS) for row in rows)
 
 
 def test_unknown_conditions_are_refused():

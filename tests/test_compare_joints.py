@@ -9,9 +9,9 @@ import pytest
 from exo_pin.anatomy import MOVEMENTS
 from exo_pin.cli import main
 from exo_pin.compare import compare, worth
-from exo_pin.compare.figure import pareto_svg
 from exo_pin.devices import subset
 from exo_pin.gait import normative_gait
+from exo_pin.report.draw.pareto import pareto_svg
 
 GAIT = normative_gait().resampled(4)
 SEARCHED = 1e-9  # metres: ten times what the solver is asked for
@@ -64,7 +64,7 @@ def test_the_figure_is_svg_with_every_choice_and_the_front(study):
 
 
 def test_the_command_prints_json_and_writes_the_figure(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("exo_pin.compare.joints.SAMPLES", 3)
+    monkeypatch.setattr("exo_pin.compare.joint_choices.SAMPLES", 3)
     assert main(["joints", "--json", "-o", str(tmp_path / "p.svg")]) == 0
     assert len(json.loads(capsys.readouterr().out)["all"]) == 64
     assert (tmp_path / "p.svg").read_text().startswith("<svg")

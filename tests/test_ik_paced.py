@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin.anatomy import FEET, Body
 from exo_pin.compare import Conditions, best, projected, robot_for, walk
-from exo_pin.compare.motion import corners, pace, sole_targets
+from exo_pin.compare.best_motion import corners, pace, sole_targets
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
 from exo_pin.ik.least_squares.velocity_limited import paced
@@ -50,7 +50,7 @@ def test_the_best_motion_keeps_the_device_s_speeds_and_ranges(device):
 @pytest.mark.parametrize("device", TIGHT)
 def test_a_motion_without_speed_limits_jumps_and_loses_hardly_less(device, monkeypatch):
     recorded, robot, motion, _ = _case(device, 100)
-    monkeypatch.setattr("exo_pin.compare.motion.paced", lambda robot, targets, q, pace, base: q)
+    monkeypatch.setattr("exo_pin.compare.best_motion.paced", lambda robot, targets, q, pace, base: q)
     free = best(recorded, robot, Conditions("device"))
     assert (_speeds(free.q) > 1.5 * pace(recorded.gait, robot)).any()
     slow, quick = (((m.corners - recorded.corners) ** 2).sum(axis=-1).mean() ** 0.5 for m in (motion, free))

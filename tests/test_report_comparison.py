@@ -11,7 +11,7 @@ import pytest
 from exo_pin import report
 from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.cli import main
-from exo_pin.compare import Conditions, compare, table, worth
+from exo_pin.compare import Conditions, compare, comparison_table, worth
 from exo_pin.devices import DEVICES, Device, both
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.report import blocks
@@ -59,7 +59,7 @@ def test_the_page_has_every_section(document):
 
 
 def test_the_ranked_table_is_the_comparison_s(document, compared):
-    assert tables(document, "Summary")[0].rows == table.rows(compared)
+    assert tables(document, "Summary")[0].rows == comparison_table.rows(compared)
 
 
 def test_errors_of_the_feet_are_those_of_the_losses(document, compared):

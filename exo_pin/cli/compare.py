@@ -83,13 +83,15 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(comparison: Comparison, name: str) -> None:
-    from exo_pin.compare import PHASES, table
+    from exo_pin.compare import PHASES, comparison_table
 
-    print(table.conditions(comparison))
-    show.table(f"What each device loses of {name}", table.COLUMNS, table.rows(comparison))
+    print(comparison_table.conditions(comparison))
+    show.table(
+        f"What each device loses of {name}", comparison_table.COLUMNS, comparison_table.rows(comparison)
+    )
     if comparison.walk.gait.events:
         columns = ("sole rms mm", *PHASES)
-        show.table("By phase of the foot's cycle", columns, table.phase_rows(comparison))
+        show.table("By phase of the foot's cycle", columns, comparison_table.phase_rows(comparison))
 
 
 def _check_output(output: str | None) -> None:
@@ -98,20 +100,20 @@ def _check_output(output: str | None) -> None:
 
 
 def _markdown(comparison: Comparison, _: argparse.Namespace) -> str:
-    from exo_pin.compare import PHASES, table
+    from exo_pin.compare import PHASES, comparison_table
 
     parts = [
-        table.conditions(comparison) + "\n",
-        table.markdown(table.COLUMNS, table.rows(comparison)),
-        table.markdown(("sole rms mm", *PHASES), table.phase_rows(comparison)),
+        comparison_table.conditions(comparison) + "\n",
+        comparison_table.markdown(comparison_table.COLUMNS, comparison_table.rows(comparison)),
+        comparison_table.markdown(("sole rms mm", *PHASES), comparison_table.phase_rows(comparison)),
     ]
     return "\n".join(parts)
 
 
 def _csv(comparison: Comparison, _: argparse.Namespace) -> str:
-    from exo_pin.compare import table
+    from exo_pin.compare import comparison_table
 
-    return table.csv(table.COLUMNS, table.rows(comparison))
+    return comparison_table.csv(comparison_table.COLUMNS, comparison_table.rows(comparison))
 
 
 def _json(comparison: Comparison, _: argparse.Namespace) -> str:

@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Try all choices and print."""
-    from exo_pin.compare import table, worth
+    from exo_pin.compare import comparison_table, worth
 
     if args.output is not None and Path(args.output).suffix.lower() not in _WRITERS:
         raise DescriptionError(f"{args.output}: {', '.join(_WRITERS)} are accepted")
@@ -45,34 +45,44 @@ def run(args: argparse.Namespace) -> int:
         show.as_json(study.facts())
     else:
         name = Path(args.gait).name
-        show.table(f"Best choice for each number of motors: {name}", table.FRONT, table.front_rows(study))
-        show.table("One movement locked, or added after the others", table.SINGLE, table.single_rows(study))
+        show.table(
+            f"Best choice for each number of motors: {name}",
+            comparison_table.FRONT,
+            comparison_table.front_rows(study),
+        )
+        show.table(
+            "One movement locked, or added after the others",
+            comparison_table.SINGLE,
+            comparison_table.single_rows(study),
+        )
     if args.output:
         write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](study))
     return 0
 
 
 def _svg(study: Worth) -> str:
-    from exo_pin.compare.figure import pareto_svg
+    from exo_pin.report.draw.pareto import pareto_svg
 
     return pareto_svg(study)
 
 
 def _markdown(study: Worth) -> str:
-    from exo_pin.compare import table
+    from exo_pin.compare import comparison_table
 
-    front = table.markdown(table.FRONT, table.front_rows(study))
-    return front + "\n" + table.markdown(table.SINGLE, table.single_rows(study))
+    front = comparison_table.markdown(comparison_table.FRONT, comparison_table.front_rows(study))
+    return (
+        front + "\n" + comparison_table.markdown(comparison_table.SINGLE, comparison_table.single_rows(study))
+    )
 
 
 def _csv(study: Worth) -> str:
-    from exo_pin.compare import table
+    from exo_pin.compare import comparison_table
 
     rows = [
         ["+".join(x["movements"]) or "none", str(x["motors"]), f"{x['sole_rms_mm']:.4f}"]
         for x in study.facts()["all"]
     ]
-    return table.csv(("driven", "motors", "sole rms mm"), rows)
+    return comparison_table.csv(("driven", "motors", "sole rms mm"), rows)
 
 
 def _json(study: Worth) -> str:

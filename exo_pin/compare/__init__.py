@@ -1,9 +1,6 @@
 """What a device loses of a walk: its best motion towards the recorded feet, and what is left to wish."""
 
-from exo_pin.compare.comparison import Comparison, compare
-from exo_pin.compare.joints import Worth, worth
-from exo_pin.compare.loss import Loss
-from exo_pin.compare.motion import (
+from exo_pin.compare.best_motion import (
     CONDITIONS,
     Conditions,
     Motion,
@@ -14,6 +11,9 @@ from exo_pin.compare.motion import (
     robot_for,
     walk,
 )
+from exo_pin.compare.comparison import Comparison, compare
+from exo_pin.compare.joint_choices import Worth, worth
+from exo_pin.compare.loss import Loss
 from exo_pin.gait.phases import PHASES
 
 __all__ = [

@@ -10,8 +10,8 @@ from typing import Any
 
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
+from exo_pin.compare.best_motion import GRANTED, Conditions, Walk, best, projected, robot_for, walk
 from exo_pin.compare.loss import Loss, clearance, number, step_width
-from exo_pin.compare.motion import GRANTED, Conditions, Walk, best, projected, robot_for, walk
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, SIDES
-from exo_pin.compare.motion import Motion, Walk
+from exo_pin.compare.best_motion import Motion, Walk
 from exo_pin.devices import Device
 from exo_pin.gait.phases import masks
 from exo_pin.gait.rigid import angle_of

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from exo_pin import __version__
-from exo_pin.compare import Comparison, Worth, table
-from exo_pin.compare.figure import pareto_svg
+from exo_pin.compare import Comparison, Worth, comparison_table
 from exo_pin.report import devices as drawn
 from exo_pin.report import losses
 from exo_pin.report.blocks import Document, Drawing, Figure, Section, Table, Tiles, Words
+from exo_pin.report.draw.pareto import pareto_svg
 
 _PELVIS = {
     "recorded": "moves as recorded under every device: the legs alone are compared",
@@ -72,7 +72,7 @@ def _summary(compared: Comparison) -> Section:
         "the least sum of squared distances of the sole corners, within the limits and speeds of its joints. "
         f"The pelvis {_PELVIS[compared.conditions.pelvis]}."
     )
-    ranked = Table(table.COLUMNS, table.rows(compared), "Least loss first")
+    ranked = Table(comparison_table.COLUMNS, comparison_table.rows(compared), "Least loss first")
     bars = Figure((drawn.ranking(compared),), "Bar: the best motion. Stroke: the plain copy.", columns=1)
     return Section("Summary", (Tiles(tiles), Words(words), ranked, Words(_COLUMNS, "note"), bars))
 
@@ -97,12 +97,12 @@ def _worth(worth: Worth) -> Section:
         (
             Figure((picture,), caption, columns=1),
             Table(
-                table.FRONT,
-                table.front_rows(worth),
+                comparison_table.FRONT,
+                comparison_table.front_rows(worth),
                 "Best choice for each number of motors",
                 prose=True,
             ),
-            Table(table.SINGLE, table.single_rows(worth)),
+            Table(comparison_table.SINGLE, comparison_table.single_rows(worth)),
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exo_pin.compare.comparison import Comparison
-from exo_pin.compare.joints import Worth
+from exo_pin.compare.joint_choices import Worth
 from exo_pin.compare.loss import Loss
 
 COLUMNS = (

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import FEET, MOVEMENTS, Body
-from exo_pin.compare.motion import BETTER, SWEEPS, Walk, corners, sole_targets, walk
+from exo_pin.compare.best_motion import BETTER, SWEEPS, Walk, corners, sole_targets, walk
 from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
 from exo_pin.ik.least_squares.subtree_kernel import settle

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from html import escape
 
-from exo_pin.compare.joints import Worth
+from exo_pin.compare.joint_choices import Worth
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 760, 430, 70, 150, 46, 54
 _FLOOR = 0.5

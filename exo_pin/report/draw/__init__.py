@@ -1,0 +1,1 @@
+"""Drawings as SVG: charts, tables of numbers, stick figures."""
