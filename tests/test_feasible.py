@@ -10,8 +10,8 @@ from exo_pin.anatomy import JOINTS, Body
 from exo_pin.cli import main
 from exo_pin.errors import UnknownNameError
 from exo_pin.feasible import feasible, nearest
-from exo_pin.feasible.scale import MOST, scaled
-from exo_pin.feasible.verdict import FASTEST
+from exo_pin.feasible.amplitude import MOST, scaled
+from exo_pin.feasible.feasibility import FASTEST
 from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.robot import load_robot

@@ -3,11 +3,11 @@
 Torques are asked where they are given (`exo_pin.gait.Torques`): working them out needs the ground's forces.
 """
 
+from exo_pin.demand import ACCELERATION, JointDemand, demands
+from exo_pin.feasible.amplitude import MOST
 from exo_pin.feasible.collision import Nearest, nearest
+from exo_pin.feasible.feasibility import FASTEST, Feasibility
 from exo_pin.feasible.judge import feasible
-from exo_pin.feasible.limits import ACCELERATION, JointDemand, demands
-from exo_pin.feasible.scale import MOST
-from exo_pin.feasible.verdict import FASTEST, Feasibility
 
 __all__ = [
     "ACCELERATION",

@@ -8,14 +8,14 @@ import dataclasses
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
+from exo_pin.demand import ACCELERATION, demands
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
+from exo_pin.feasible.amplitude import amplitude
 from exo_pin.feasible.collision import nearest
-from exo_pin.feasible.fit import fits, keeps_up
-from exo_pin.feasible.limits import ACCELERATION, demands
-from exo_pin.feasible.pelvis import dropped, slides
-from exo_pin.feasible.scale import amplitude
-from exo_pin.feasible.verdict import FASTEST, Feasibility
+from exo_pin.feasible.device_fit import fits, keeps_up
+from exo_pin.feasible.feasibility import FASTEST, Feasibility
+from exo_pin.feasible.pelvis_demand import dropped, slides
 from exo_pin.gait import Gait, Torques
 from exo_pin.kinematics import with_events
 from exo_pin.robot import Robot, load_robot

@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
+from exo_pin.demand import ROUNDING, JointDemand
 from exo_pin.devices import SLIDES
 from exo_pin.feasible.collision import Nearest
-from exo_pin.feasible.fit import Fit
-from exo_pin.feasible.limits import ROUNDING, JointDemand
+from exo_pin.feasible.device_fit import Fit
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.gait.phases import PHASES, percent

@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Sequence
 
+from exo_pin.demand import JointDemand
 from exo_pin.feasible.collision import nearest
-from exo_pin.feasible.limits import JointDemand
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 

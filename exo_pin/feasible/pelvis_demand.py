@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.demand import JointDemand
 from exo_pin.devices import SLIDES
-from exo_pin.feasible.limits import JointDemand
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import derivative
 from exo_pin.gait.rigid import angle_of
