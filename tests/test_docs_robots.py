@@ -8,8 +8,8 @@ import pytest
 
 from exo_pin.cli import main
 from exo_pin.retarget import load
-from exo_pin.retarget.table import looks
-from exo_pin.retarget.targets import UNFIT
+from exo_pin.retarget.target_robots import UNFIT
+from exo_pin.retarget.target_table import looks
 
 PAGE = (Path(__file__).parent.parent / "docs" / "robots.md").read_text("utf-8")
 

@@ -28,7 +28,7 @@ exit code 1: a foot was missed by more than 0.01 mm or 1e-5 rad (legs of fewer t
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
-    from exo_pin.retarget.targets import TARGETS
+    from exo_pin.retarget.target_robots import TARGETS
 
     parser.epilog = _EXAMPLES.format(", ".join(TARGETS))
     options.add_gait(parser)
@@ -50,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     gait = options.gait_from(args, body)
     if args.table:
-        from exo_pin.retarget.table import markdown
+        from exo_pin.retarget.target_table import markdown
 
         print(markdown(gait, body), end="")
         return 0

@@ -14,10 +14,10 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.examples import located
 from exo_pin.files import read_text
-from exo_pin.retarget import structure, userfile
+from exo_pin.retarget import leg_search, target_file
 from exo_pin.retarget.axes import direction
-from exo_pin.retarget.legs import RobotLeg, robot_leg
-from exo_pin.retarget.targets import TARGETS, UNFIT, Target
+from exo_pin.retarget.robot_legs import RobotLeg, robot_leg
+from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf
 
 Array = npt.NDArray[np.float64]
@@ -65,7 +65,7 @@ def find(target: str | Path | Target) -> Target:
     if str(target).lower() in UNFIT:
         raise DescriptionError(f"{target}: {UNFIT[str(target).lower()]}")
     if path.suffix.lower() == ".toml":
-        return userfile.load(path)
+        return target_file.load(path)
     if path.suffix.lower() == ".xacro":
         raise DescriptionError(f"{target} is a xacro; write the URDF first: xacro {path.name} > robot.urdf")
     if path.suffix.lower() == ".urdf" or path.exists():
@@ -96,14 +96,14 @@ def ready(target: Target, robot: Robot) -> Machine:
     stand = robot.q(target.stand)
     feet, up = target.feet, target.up or "z"
     if len(feet) != 2:
-        feet, up = structure.feet_and_up(robot, stand, target.up)
+        feet, up = leg_search.feet_and_up(robot, stand, target.up)
     left, right = feet
-    front = target.forward or structure.forward(robot, stand, (left, right), up)
+    front = target.forward or leg_search.forward(robot, stand, (left, right), up)
     turn = _turn(front, up)
     legs = [
         robot_leg(robot, side, foot, joints, stand, turn)
         for side, foot, joints in zip(
-            SIDES, (left, right), structure.chains(robot, (left, right)), strict=True
+            SIDES, (left, right), leg_search.chains(robot, (left, right)), strict=True
         )
     ]
     return Machine(target, robot, stand, turn, (legs[0], legs[1]))

@@ -19,10 +19,10 @@ from exo_pin.gait import Gait
 from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget.axes import turns
-from exo_pin.retarget.legs import RobotLeg
 from exo_pin.retarget.machine import Machine, load, ready
-from exo_pin.retarget.result import Retargeted
-from exo_pin.retarget.targets import Target
+from exo_pin.retarget.retargeted import Retargeted
+from exo_pin.retarget.robot_legs import RobotLeg
+from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot, load_robot, load_urdf
 
 Array = npt.NDArray[np.float64]

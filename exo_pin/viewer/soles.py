@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from exo_pin.anatomy import Body, Leg
 from exo_pin.kinematics import poses
 from exo_pin.retarget import Machine
-from exo_pin.retarget.legs import RobotLeg
+from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.viewer.solids import Solid
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.retarget.machine import Machine
-from exo_pin.retarget.targets import Target
+from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.retarget.axes import SIGNED
-from exo_pin.retarget.targets import Target
+from exo_pin.retarget.target_robots import Target
 from exo_pin.safe import toml_file
 
 _TEXT, _AXIS = "a text", f"one of {', '.join(SIGNED)}"

@@ -9,8 +9,8 @@ from pathlib import PurePath
 
 from exo_pin.anatomy import Body
 from exo_pin.gait import Gait
-from exo_pin.retarget.result import Retargeted
-from exo_pin.retarget.targets import TARGETS, Target
+from exo_pin.retarget.retargeted import Retargeted
+from exo_pin.retarget.target_robots import TARGETS, Target
 from exo_pin.retarget.transfer import retarget
 
 HEAD = (
