@@ -15,7 +15,7 @@ from exo_pin.devices import Device, both
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.formats import save_gait
 from exo_pin.gait import normative_gait
-from exo_pin.study.work import _in_turns
+from exo_pin.study.parallel import _in_turns
 
 DEVICES = ("exo12", "hk4")
 RECORDED = (Conditions("recorded"),)

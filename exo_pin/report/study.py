@@ -14,7 +14,7 @@ from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Tab
 from exo_pin.report.chart import Chart, draw
 from exo_pin.report.heat import heat, strips
 from exo_pin.study import Row, summary
-from exo_pin.study.sheet import phase_column
+from exo_pin.study.study_table import phase_column
 
 Array = npt.NDArray[np.float64]
 

@@ -4,10 +4,10 @@
 """
 
 from exo_pin.study.case import Case, Outcome, solve
+from exo_pin.study.parallel import Study, part, run
 from exo_pin.study.plan import STATURES, STEP, bodies, plan, recordings, statures
-from exo_pin.study.sheet import COLUMNS, Row, load, save
+from exo_pin.study.study_table import COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
-from exo_pin.study.work import Study, part, run
 
 __all__ = [
     "COLUMNS",

@@ -20,7 +20,7 @@ from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import is_markers, load_gait
 from exo_pin.gait import Gait, doubts, normative_gait
-from exo_pin.study.sheet import MOTIONS, Row, phase_column
+from exo_pin.study.study_table import MOTIONS, Row, phase_column
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from exo_pin.study.sheet import Row
+from exo_pin.study.study_table import Row
 
 
 def summary(rows: Sequence[Row]) -> tuple[tuple[str, ...], list[list[str]]]:

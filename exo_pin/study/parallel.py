@@ -10,9 +10,9 @@ from pathlib import Path
 
 from exo_pin.errors import DescriptionError, FormatError
 from exo_pin.files import write_text
-from exo_pin.study import sheet
+from exo_pin.study import study_table
 from exo_pin.study.case import Case, Outcome, solve
-from exo_pin.study.sheet import MOTIONS, Row
+from exo_pin.study.study_table import MOTIONS, Row
 
 Progress = Callable[[Iterable[Outcome], int], Iterable[Outcome]]
 """Wraps the outcomes as they come in; told how many there will be."""
@@ -79,7 +79,7 @@ def run(
     rows = tuple(done[mark][motion] for mark in marks for motion in MOTIONS)
     if path is not None:
         if rows:
-            sheet.save(rows, path)
+            study_table.save(rows, path)
         part(path).unlink(missing_ok=True)
     return Study(rows, dict(sorted(failures.items())), len(rows) - kept, kept)
 
@@ -105,7 +105,10 @@ def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
 def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Row]]:
     """Rows of earlier runs, by fingerprint and motion; only whole ones."""
     rows = [
-        row for file in (path, part(path)) if file.exists() for row in sheet.load(file, torn=file != path)
+        row
+        for file in (path, part(path))
+        if file.exists()
+        for row in study_table.load(file, torn=file != path)
     ]
     if restart:
         return {}
@@ -134,12 +137,12 @@ def _draft(
         yield lambda rows: None
         return
     file = part(path)
-    write_text(file, sheet.text(row for rows in done.values() for row in rows.values()))
+    write_text(file, study_table.text(row for rows in done.values() for row in rows.values()))
 
     def note(rows: Sequence[Row]) -> None:
         try:
             with file.open("a", encoding="utf-8") as lines:
-                lines.write(sheet.text(rows, heading=False))
+                lines.write(study_table.text(rows, heading=False))
         except OSError as error:
             raise FormatError(file, f"cannot be written: {error.strerror}") from error
 
