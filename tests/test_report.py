@@ -17,8 +17,10 @@ from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
 from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, spatiotemporal
-from exo_pin.report import angles, axis, blocks, chart, cycle, facts, loop, noise, panels, skeleton, svg
-from exo_pin.report.motion import motion
+from exo_pin.report.document import blocks
+from exo_pin.report.draw import chart, chart_axis, leg_cycles, panels, skeleton, svg
+from exo_pin.report.sections import angles, fact_tables, ik_loop, noise
+from exo_pin.report.sections.joint_rates import motion
 from exo_pin.robot import load_robot, load_urdf
 
 EVIL = '<script>alert("x")</script>&'
@@ -275,14 +277,14 @@ def test_a_robot_without_a_body_is_refused(robot, gait):
 
 
 def test_legs_of_a_normal_walk_are_its_curves(gait):
-    left, right = cycle.legs(gait)
+    left, right = leg_cycles.legs(gait)
     np.testing.assert_allclose(left.q[:-1], gait.q[:, :6], atol=FOURIER)
     np.testing.assert_allclose(right.q[:-1], np.roll(gait.q[:, 6:], -50, axis=0), atol=FOURIER)
     assert left.stance == pytest.approx(59.0)
 
 
 def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(recording):
-    left, _ = cycle.legs(recording)
+    left, _ = leg_cycles.legs(recording)
     assert left.sd is not None
     assert left.sd.max() < 1e-3  # the cycles are copies; resampling differs a little
     keep = recording.time < 0.6 * recording.time[-1] / 2.5
@@ -293,7 +295,7 @@ def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(rec
         base=recording.base[keep],
         events=[e for e in recording.events if e.time <= recording.time[keep][-1]],
     )
-    estimated = cycle.legs(step)
+    estimated = leg_cycles.legs(step)
     assert all("no whole cycle" in leg.note for leg in estimated)
     T = 2 * (step.events[2].time - step.events[0].time)
     np.testing.assert_allclose(np.nanmax(estimated[0].percent), 100 * step.time[-1] / T)
@@ -348,7 +350,7 @@ def test_a_long_recording_is_thinned_for_drawing_only():
 
 @pytest.mark.parametrize(("low", "high"), [(0, 1), (-7.3, 61.2), (1e-9, 3e-9), (-2e5, 9e5)])
 def test_ticks_are_round_and_within(low, high):
-    found = np.array(axis.ticks(low, high))
+    found = np.array(chart_axis.ticks(low, high))
     assert 3 <= len(found) <= 10
     assert low - 1e-9 * abs(low) <= found.min() <= found.max() <= high * (1 + 1e-9)
     step = np.diff(found)
@@ -400,7 +402,7 @@ def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):
 
 
 def test_the_loops_error_falls_to_the_tolerance(robot, gait):
-    errors = loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
+    errors = ik_loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
     assert errors[-1] <= 1e-9 < errors[-2]
     assert errors[0] > 0.1
 
@@ -501,6 +503,6 @@ def test_strides_on_a_turn_are_left_out_and_named(robot, gait):
     base = long.base.copy()
     base[:, :3, :3] = R @ base[:, :3, :3]
     walk = Gait(long.time, long.q, base=base, events=long.events, source="with a turn")
-    words = str(facts.numbers(robot, walk))
+    words = str(fact_tables.numbers(robot, walk))
     assert "turning, not walking straight on" in words
-    assert "Left out" not in str(facts.numbers(robot, gait))
+    assert "Left out" not in str(fact_tables.numbers(robot, gait))

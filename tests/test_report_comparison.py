@@ -14,9 +14,9 @@ from exo_pin.cli import main
 from exo_pin.compare import Conditions, compare, comparison_table, worth
 from exo_pin.devices import DEVICES, Device, both
 from exo_pin.gait import Gait, normative_gait
-from exo_pin.report import blocks
-from exo_pin.report.devices import joints, ranking, sticks
-from exo_pin.report.place import place
+from exo_pin.report.document import blocks
+from exo_pin.report.draw.cycle_place import place
+from exo_pin.report.draw.device_drawings import joints, ranking, sticks
 
 GAIT = normative_gait().resampled(20)
 EVIL = '<script>alert("x")</script>&'

@@ -10,8 +10,8 @@ import pytest
 
 from exo_pin import report, study
 from exo_pin.compare import Conditions
-from exo_pin.report.heat import heat, strips
-from exo_pin.report.palette import coincident, looks
+from exo_pin.report.draw.heat import heat, strips
+from exo_pin.report.draw.palette import coincident, looks
 
 EVIL = '<script>alert("x")</script>'
 

@@ -5,13 +5,13 @@ figures, `comparison(compared)` devices side by side, `study(rows)` many walks. 
 `html(document)` and `markdown(document)` make text of them.
 """
 
-from exo_pin.report.blocks import Document, Drawing
-from exo_pin.report.comparison import comparison
-from exo_pin.report.markdown import markdown
-from exo_pin.report.page import html
-from exo_pin.report.reproduction import Rendered, reproduction
-from exo_pin.report.study import study
-from exo_pin.report.walk import About, walk
+from exo_pin.report.document.blocks import Document, Drawing
+from exo_pin.report.document.html_page import html
+from exo_pin.report.document.markdown import markdown
+from exo_pin.report.pages.comparison_page import comparison
+from exo_pin.report.pages.reproduction import Rendered, reproduction
+from exo_pin.report.pages.study_page import study
+from exo_pin.report.pages.walk_page import About, walk
 
 __all__ = [
     "About",

@@ -7,10 +7,10 @@ import numpy as np
 from exo_pin import ik
 from exo_pin.anatomy import MOVEMENTS, SIDES
 from exo_pin.gait import Gait
-from exo_pin.report import panels, svg
-from exo_pin.report.blocks import Block, Drawing, Figure, Section, Table, Words
-from exo_pin.report.chart import Chart, Curve, draw
-from exo_pin.report.noise import CALM, NOISES, Answer, exact, noisy
+from exo_pin.report.document.blocks import Block, Drawing, Figure, Section, Table, Words
+from exo_pin.report.draw import panels, svg
+from exo_pin.report.draw.chart import Chart, Curve, draw
+from exo_pin.report.sections.noise import CALM, NOISES, Answer, exact, noisy
 from exo_pin.robot import Robot
 
 

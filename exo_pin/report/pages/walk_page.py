@@ -10,12 +10,12 @@ import numpy as np
 from exo_pin import crosscheck
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
-from exo_pin.report import actuators, checks, facts, feet
-from exo_pin.report.angles import curves
-from exo_pin.report.blocks import Document, Player, Section, Tiles, Words
-from exo_pin.report.mass import mass
-from exo_pin.report.motion import motion
-from exo_pin.report.ranges import ranges
+from exo_pin.report.document.blocks import Document, Player, Section, Tiles, Words
+from exo_pin.report.sections import actuators, agreement, fact_tables, foot_paths
+from exo_pin.report.sections.angles import curves
+from exo_pin.report.sections.joint_rates import motion
+from exo_pin.report.sections.mass_path import mass
+from exo_pin.report.sections.ranges import ranges
 from exo_pin.robot import Robot
 
 
@@ -72,20 +72,20 @@ def walk(
     rates = motion(robot, gait, cutoff)
     sections = [
         _summary(gait, about, verdict),
-        facts.body(robot),
-        facts.device(robot),
+        fact_tables.body(robot),
+        fact_tables.device(robot),
         *([_played(player, about.title, still)] if player else []),
         curves(robot, gait, normal),
         ranges(robot, gait),
         actuators.rates(robot, gait, rates),
         *([actuators.torques(robot, gait, torques)] if torques else []),
-        feet.paths(robot, gait, forward),
+        foot_paths.paths(robot, gait, forward),
         mass(robot, gait),
-        feet.contact(gait),
-        facts.numbers(robot, gait),
-        checks.inverse(gait, verdict),
-        checks.agreement(verdict),
-        facts.choices(robot, gait, {"forward": forward, **about.choices}, rates.how, normal),
+        foot_paths.contact(gait),
+        fact_tables.numbers(robot, gait),
+        agreement.inverse(gait, verdict),
+        agreement.agreement(verdict),
+        fact_tables.choices(robot, gait, {"forward": forward, **about.choices}, rates.how, normal),
     ]
     under = [f"{name}: {words}" for name, words in (("walk", about.what), ("who", about.who)) if words]
     return Document(about.title, "; ".join([*under, *([about.when] if about.when else [])]), tuple(sections))

@@ -9,9 +9,9 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
 from exo_pin.gait import Gait, strides
-from exo_pin.report import panels, svg
-from exo_pin.report.chart import Span
-from exo_pin.report.cycle import legs
+from exo_pin.report.draw import panels, svg
+from exo_pin.report.draw.chart import Span
+from exo_pin.report.draw.leg_cycles import legs
 
 Array = npt.NDArray[np.float64]
 

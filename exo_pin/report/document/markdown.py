@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exo_pin.report.blocks import Block, Document, Figure, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Section, Table, Tiles, Words
 
 
 def markdown(document: Document) -> str:

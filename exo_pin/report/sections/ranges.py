@@ -9,9 +9,9 @@ import numpy as np
 from exo_pin import crosscheck
 from exo_pin.anatomy import JOINTS
 from exo_pin.gait import Gait
-from exo_pin.report import svg
-from exo_pin.report.axis import ticks
-from exo_pin.report.blocks import Block, Drawing, Figure, Section, Table
+from exo_pin.report.document.blocks import Block, Drawing, Figure, Section, Table
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.robot import Robot
 
 

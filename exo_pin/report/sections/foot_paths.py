@@ -8,10 +8,10 @@ import numpy.typing as npt
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
-from exo_pin.report import panels, skeleton, svg
-from exo_pin.report.axis import ticks
-from exo_pin.report.blocks import Drawing, Figure, Section, Table, Words
-from exo_pin.report.chart import Chart, Curve, draw
+from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
+from exo_pin.report.draw import panels, skeleton, svg
+from exo_pin.report.draw.chart import Chart, Curve, draw
+from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -7,9 +7,9 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.feasible import ACCELERATION
 from exo_pin.gait import Gait, Torques
-from exo_pin.report import panels
-from exo_pin.report.blocks import Block, Figure, Section, Table, Words
-from exo_pin.report.motion import Motion
+from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
+from exo_pin.report.draw import panels
+from exo_pin.report.sections.joint_rates import Motion
 from exo_pin.robot import Robot
 
 

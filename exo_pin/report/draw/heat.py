@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.report import svg
-from exo_pin.report.axis import extent, label, ticks
-from exo_pin.report.blocks import Drawing
+from exo_pin.report.document.blocks import Drawing
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart_axis import extent, label, ticks
 
 Array = npt.NDArray[np.float64]
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from exo_pin.report import legend, svg
-from exo_pin.report.axis import extent, label, ticks
+from exo_pin.report.draw import legend, svg
+from exo_pin.report.draw.chart_axis import extent, label, ticks
 
 Array = NDArray[np.float64]
 

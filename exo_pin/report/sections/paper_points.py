@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exo_pin.report.blocks import Section, Table, Words
+from exo_pin.report.document.blocks import Section, Table, Words
 
 
 class Point(NamedTuple):

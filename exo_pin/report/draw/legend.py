@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from exo_pin.report import svg
+from exo_pin.report.draw import svg
 
 ROW = 15.0
 """Height of a row [px]."""

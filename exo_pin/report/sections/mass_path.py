@@ -7,9 +7,9 @@ import numpy.typing as npt
 
 from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass
-from exo_pin.report import panels
-from exo_pin.report.blocks import Drawing, Figure, Section, Table
-from exo_pin.report.chart import Chart, Curve, draw
+from exo_pin.report.document.blocks import Drawing, Figure, Section, Table
+from exo_pin.report.draw import panels
+from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -7,9 +7,9 @@ import numpy.typing as npt
 
 from exo_pin.crosscheck import BENT_KNEE, FK_TOLERANCE, IK_TOLERANCE, Check
 from exo_pin.gait import Gait
-from exo_pin.report import svg
-from exo_pin.report.blocks import Drawing, Figure, Section, Table, Words
-from exo_pin.report.chart import Chart, Curve, Level, draw
+from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 
 _WITNESSES = {
     "recursion": "the paper's recursion",

@@ -13,9 +13,9 @@ from exo_pin.anatomy import FEET
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
-from exo_pin.report import svg
-from exo_pin.report.blocks import Drawing
-from exo_pin.report.chart import Chart, Curve, Level, draw
+from exo_pin.report.document.blocks import Drawing
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.gait import Gait
-from exo_pin.report import angles, loop, skeleton
-from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Table, Words
-from exo_pin.report.cycle import legs
-from exo_pin.report.figure6 import answers, recovered
-from exo_pin.report.points import overview
+from exo_pin.report.document.blocks import Block, Document, Drawing, Figure, Section, Table, Words
+from exo_pin.report.draw import skeleton
+from exo_pin.report.draw.leg_cycles import legs
+from exo_pin.report.sections import angles, ik_loop
+from exo_pin.report.sections.figure6 import answers, recovered
+from exo_pin.report.sections.paper_points import overview
 from exo_pin.robot import Robot
 
 PAPER = (
@@ -92,8 +93,8 @@ def _frames(robot: Robot) -> Section:
 
 def _loop(robot: Robot, gait: Gait) -> Section:
     sample = int(_SAMPLE * len(gait))
-    errors = loop.errors_by_step(robot, gait, sample, tolerance=_TOLERANCE)
-    drawings = (loop.diagram(_TOLERANCE), loop.convergence(errors, _TOLERANCE, 100 * _SAMPLE))
+    errors = ik_loop.errors_by_step(robot, gait, sample, tolerance=_TOLERANCE)
+    drawings = (ik_loop.diagram(_TOLERANCE), ik_loop.convergence(errors, _TOLERANCE, 100 * _SAMPLE))
     caption = (
         f"Fig. 2. Left: the loop. Right: the larger of all foot errors starting from mid-range, "
         f"{errors[0]:.2g} at first and {errors[-1]:.1e} after {len(errors) - 1} corrections."

@@ -9,10 +9,10 @@ import numpy.typing as npt
 
 from exo_pin.gait import SPEEDS
 from exo_pin.gait.phases import PHASES
-from exo_pin.report import palette
-from exo_pin.report.blocks import Block, Document, Drawing, Figure, Section, Table, Tiles, Words
-from exo_pin.report.chart import Chart, draw
-from exo_pin.report.heat import heat, strips
+from exo_pin.report.document.blocks import Block, Document, Drawing, Figure, Section, Table, Tiles, Words
+from exo_pin.report.draw import palette
+from exo_pin.report.draw.chart import Chart, draw
+from exo_pin.report.draw.heat import heat, strips
 from exo_pin.study import Row, summary
 from exo_pin.study.study_table import phase_column
 

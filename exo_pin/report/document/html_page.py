@@ -8,7 +8,7 @@ from html import escape
 from importlib import resources
 from typing import Any
 
-from exo_pin.report.blocks import Block, Document, Figure, Player, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Player, Section, Table, Tiles, Words
 
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -25,7 +25,7 @@ def html(document: Document) -> str:
     """
     title = escape(document.title)
     body = "\n".join(map(_section, document.sections))
-    style = (resources.files("exo_pin.report") / "page.css").read_text("utf-8")
+    style = (resources.files("exo_pin.report.document") / "page.css").read_text("utf-8")
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{escape(POLICY)}">\n'

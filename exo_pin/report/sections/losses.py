@@ -9,9 +9,9 @@ import numpy as np
 from exo_pin.anatomy import MOVEMENTS, SIDES
 from exo_pin.compare import PHASES, Comparison, Loss
 from exo_pin.devices import SLIDES, movement_of
-from exo_pin.report import devices as drawn
-from exo_pin.report.blocks import Block, Figure, Section, Table, Words
-from exo_pin.report.heat import heat
+from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
+from exo_pin.report.draw import device_drawings as drawn
+from exo_pin.report.draw.heat import heat
 
 
 def feet(compared: Comparison) -> Section:

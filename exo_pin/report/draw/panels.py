@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import MOVEMENTS, SIDES
 from exo_pin.gait import Gait
-from exo_pin.report import svg
-from exo_pin.report.blocks import Drawing
-from exo_pin.report.chart import Chart, Curve, Level, Span, draw
+from exo_pin.report.document.blocks import Drawing
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart import Chart, Curve, Level, Span, draw
 
 Array = npt.NDArray[np.float64]
 

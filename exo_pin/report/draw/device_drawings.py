@@ -11,11 +11,11 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
 from exo_pin.kinematics.resting_stance import travel
-from exo_pin.report import palette, panels, skeleton, svg
-from exo_pin.report.axis import ticks
-from exo_pin.report.blocks import Drawing
-from exo_pin.report.chart import Chart, Curve, draw
-from exo_pin.report.place import place
+from exo_pin.report.document.blocks import Drawing
+from exo_pin.report.draw import palette, panels, skeleton, svg
+from exo_pin.report.draw.chart import Chart, Curve, draw
+from exo_pin.report.draw.chart_axis import ticks
+from exo_pin.report.draw.cycle_place import place
 
 Array = npt.NDArray[np.float64]
 

@@ -9,10 +9,10 @@ import numpy.typing as npt
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
 from exo_pin.gait import Gait, normative_gait, normative_sd
-from exo_pin.report import panels, svg
-from exo_pin.report.blocks import Drawing, Figure, Section, Words
-from exo_pin.report.chart import Band, Chart, Curve, Level, Span, draw
-from exo_pin.report.cycle import Leg, legs
+from exo_pin.report.document.blocks import Drawing, Figure, Section, Words
+from exo_pin.report.draw import panels, svg
+from exo_pin.report.draw.chart import Band, Chart, Curve, Level, Span, draw
+from exo_pin.report.draw.leg_cycles import Leg, legs
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.report.chart import Curve
+from exo_pin.report.draw.chart import Curve
 
 Array = npt.NDArray[np.float64]
 

@@ -12,9 +12,9 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
 from exo_pin.kinematics import jacobian, poses, spatiotemporal
-from exo_pin.report import svg
-from exo_pin.report.blocks import Drawing
-from exo_pin.report.chart import Chart, Curve, Level, draw
+from exo_pin.report.document.blocks import Drawing
+from exo_pin.report.draw import svg
+from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 from exo_pin.robot import Robot
 
 Array = npt.NDArray[np.float64]

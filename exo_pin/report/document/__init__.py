@@ -1,0 +1,1 @@
+"""Documents as values, and what renders them as HTML or Markdown."""

@@ -1,0 +1,1 @@
+"""Whole pages: one walk, a comparison of devices, a study, the paper's figures."""

@@ -1,0 +1,1 @@
+"""Sections of a report: each turns results into words, tables and figures."""
