@@ -18,7 +18,7 @@ from exo_pin import cache, viewer
 from exo_pin.cli import recent
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.bundle import bundle
+from exo_pin.viewer.page.bundle import bundle
 
 PATIENCE = 30.0  # [s]: what a busy machine may take
 

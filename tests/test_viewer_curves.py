@@ -11,8 +11,8 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer import curves
-from exo_pin.viewer.cycles import cycles
+from exo_pin.viewer.scene import joint_plots
+from exo_pin.viewer.scene.phase_cycles import cycles
 
 ORDER = 1e-12  # [rad] through a robot's own coordinates and back
 
@@ -23,8 +23,8 @@ def gait():
 
 
 def test_left_and_right_of_a_joint_share_a_plot_and_the_sagittal_plane_comes_first():
-    found = curves.pairs(JOINTS)
-    assert tuple(found)[:3] == curves.FIRST
+    found = joint_plots.pairs(JOINTS)
+    assert tuple(found)[:3] == joint_plots.FIRST
     assert {f"{side}_{movement}" for movement, sides in found.items() for side in sides} == set(JOINTS)
     for movement, sides in found.items():
         assert {side: JOINTS[k] for side, k in sides.items()} == {s: f"{s}_{movement}" for s in SIDES}
@@ -35,12 +35,12 @@ def test_left_and_right_of_a_joint_share_a_plot_and_the_sagittal_plane_comes_fir
     [("leg_left_4_joint", "leg_right_4_joint"), ("l_knee", "r_knee"), ("LKneePitch", "RKneePitch")],
 )
 def test_the_sides_of_other_robots_are_found_in_their_names(left, right):
-    ((_, sides),) = curves.pairs((left, right)).items()
+    ((_, sides),) = joint_plots.pairs((left, right)).items()
     assert sides == {"left": 0, "right": 1}
 
 
 def test_a_joint_of_the_trunk_has_a_plot_of_its_own():
-    assert curves.pairs(("torso_roll", "lateral_bend")) == {
+    assert joint_plots.pairs(("torso_roll", "lateral_bend")) == {
         "torso_roll": {"middle": 0},
         "lateral_bend": {"middle": 1},
     }
@@ -48,7 +48,7 @@ def test_a_joint_of_the_trunk_has_a_plot_of_its_own():
 
 def test_a_device_with_locked_joints_shows_them_still_and_without_limits(gait):
     robot = load_robot(device="lokomat")
-    angles, speeds = curves.of_gait(robot, gait)
+    angles, speeds = joint_plots.of_gait(robot, gait)
     for k, joint in enumerate(JOINTS):
         moves = joint in robot.joints
         assert np.isfinite([angles.lower[k], angles.upper[k], speeds.upper[k]]).all() == moves
@@ -60,24 +60,24 @@ def test_a_device_with_locked_joints_shows_them_still_and_without_limits(gait):
 def test_any_robots_joints_have_plots_under_their_own_names(gait):
     robot = load_robot(device="lopes8")
     q = robot.from_gait(gait)
-    angles, speeds = curves.of_robot(robot, gait.time, q)
+    angles, speeds = joint_plots.of_robot(robot, gait.time, q)
     assert angles.joints == speeds.joints == robot.joints[3:]  # without the slides of its pelvis
     for k, name in enumerate(angles.joints):
         assert np.array_equal(angles.values[:, k], q[:, robot.column(name)])
-    some = curves.of_robot(robot, gait.time, q, ["left_knee_flexion"])[0]
+    some = joint_plots.of_robot(robot, gait.time, q, ["left_knee_flexion"])[0]
     assert some.values.shape == (len(gait), 1)
     with pytest.raises(UnknownNameError):
-        curves.of_robot(robot, gait.time, q, ["tail"])
+        joint_plots.of_robot(robot, gait.time, q, ["tail"])
 
 
 def test_dashed_curves_keep_their_own_time(gait):
     slow = gait.slowed(1.5)
-    tabs = curves.of_gait(load_robot(), gait, slow)
-    arrays = curves.arrays(tabs)
+    tabs = joint_plots.of_gait(load_robot(), gait, slow)
+    arrays = joint_plots.arrays(tabs)
     for tab in tabs:
         assert np.array_equal(arrays[f"{tab.dashed}_time"], slow.time)
         assert len(arrays[tab.dashed]) == len(slow)
-    assert [group.reference for group in curves.groups(tabs)] == [tab.dashed for tab in tabs]
+    assert [group.reference for group in joint_plots.groups(tabs)] == [tab.dashed for tab in tabs]
 
 
 def test_phase_is_counted_in_the_cycles_of_the_foot_that_has_more(gait):

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exo_pin.viewer import furniture
-from exo_pin.viewer.furniture import Treadmill
+from exo_pin.viewer.scene import props
+from exo_pin.viewer.scene.props import Treadmill
 
 speeds = st.floats(0, 3)
 periods = st.floats(0.5, 3)
@@ -23,7 +23,7 @@ def test_the_belt_closes_its_loop_without_a_jump(speed, period):
 @given(speeds, periods, st.floats(1.5, 4))
 def test_slats_stay_on_the_belt_while_they_move(speed, period, length):
     mill = Treadmill(0, length, 0, speed, period)
-    commands = furniture.treadmill("/t", mill)
+    commands = props.treadmill("/t", mill)
     x = np.array(
         [c["matrix"][12] for c in commands if c["type"] == "set_transform" and "/slats/" in c["path"]]
     )
@@ -35,7 +35,7 @@ def test_slats_stay_on_the_belt_while_they_move(speed, period, length):
 def test_a_tube_keeps_its_radius_and_looks_outwards():
     angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
     circle = np.stack([np.cos(angle), 0.1 * np.sin(3 * angle), np.sin(angle)], axis=1)
-    vertices, faces, normals = furniture.tube(circle, 0.01, closed=True)
+    vertices, faces, normals = props.tube(circle, 0.01, closed=True)
     middle = np.repeat(circle, 8, axis=0)
     assert np.linalg.norm(vertices - middle, axis=1) == pytest.approx(0.01)
     a, b, c = (vertices[faces[:, k]] for k in range(3))
@@ -46,12 +46,12 @@ def test_a_tube_keeps_its_radius_and_looks_outwards():
 @pytest.mark.parametrize(("closed", "count"), [(True, 10), (False, 9)])
 def test_an_open_tube_does_not_join_its_ends(closed, count):
     points = np.arange(30.0).reshape(10, 3)
-    _, faces, _ = furniture.tube(points, 0.01, closed=closed)
+    _, faces, _ = props.tube(points, 0.01, closed=closed)
     assert len(faces) == count * 8 * 2
 
 
 def test_the_grid_covers_the_floor_in_both_directions():
-    command = next(c for c in furniture.floor("/f", 0.0, 9.0) if c["path"] == "/f/grid" and "object" in c)
+    command = next(c for c in props.floor("/f", 0.0, 9.0) if c["path"] == "/f/grid" and "object" in c)
     packed = command["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
     ends = np.frombuffer(packed.data, "<f4").reshape(-1, 2, 3)
     assert np.abs(ends[:, 1] - ends[:, 0]).sum(axis=1) == pytest.approx(2.0)
@@ -61,6 +61,6 @@ def test_the_grid_covers_the_floor_in_both_directions():
 
 
 def test_left_is_redder_and_right_is_bluer():
-    left, right = furniture.SIDE_COLORS["left"], furniture.SIDE_COLORS["right"]
+    left, right = props.SIDE_COLORS["left"], props.SIDE_COLORS["right"]
     assert left[0] > 2 * left[2]
     assert right[2] > 2 * right[0]

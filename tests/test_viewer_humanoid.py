@@ -11,12 +11,12 @@ from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load, retarget
 from exo_pin.robot import load_urdf
-from exo_pin.viewer.curves import groups
-from exo_pin.viewer.humanoid import humanoid
-from exo_pin.viewer.looks import dressed
-from exo_pin.viewer.messages import Wish
-from exo_pin.viewer.reach import reacher
-from exo_pin.viewer.soles import soles
+from exo_pin.viewer.live.foot_drag import reacher
+from exo_pin.viewer.live.messages import Wish
+from exo_pin.viewer.scene.appearance import dressed
+from exo_pin.viewer.scene.humanoid import humanoid
+from exo_pin.viewer.scene.joint_plots import groups
+from exo_pin.viewer.scene.soles import soles
 
 GAIT = normative_gait().resampled(40)
 SINGLE = 1e-6  # [m]: float32 keeps seven digits

@@ -8,9 +8,9 @@ import pytest
 
 from exo_pin.errors import FormatError
 from exo_pin.retarget import load
-from exo_pin.viewer import meshfiles, solids
-from exo_pin.viewer.meshes import Meshes
-from exo_pin.viewer.thinning import shaded, thinned
+from exo_pin.viewer.meshes import mesh_files, solids
+from exo_pin.viewer.meshes.thinning import shaded, thinned
+from exo_pin.viewer.meshes.urdf_meshes import Meshes
 
 CORNERS = np.array([[x, y, z] for x in (0.0, 0.2) for y in (0.0, 0.1) for z in (0.0, 0.3)])
 SIDES = ([0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3])
@@ -72,7 +72,7 @@ def volume(vertices, faces):
 )
 def test_a_box_is_read_whole_from_every_kind_of_file(tmp_path, name, content):
     (tmp_path / name).write_bytes(content(CORNERS, FACES))
-    (part,) = meshfiles.read(tmp_path / name)
+    (part,) = mesh_files.read(tmp_path / name)
     assert len(part.vertices) == 8
     assert volume(part.vertices, part.faces) == pytest.approx(0.2 * 0.1 * 0.3)
 
@@ -80,7 +80,7 @@ def test_a_box_is_read_whole_from_every_kind_of_file(tmp_path, name, content):
 @pytest.mark.parametrize("kind", ["triangles", "polylist"])
 def test_collada_is_placed_scaled_and_coloured_as_its_scene_says(tmp_path, kind):
     (tmp_path / "a.dae").write_bytes(dae(CORNERS, FACES, kind=kind))
-    (part,) = meshfiles.read(tmp_path / "a.dae")
+    (part,) = mesh_files.read(tmp_path / "a.dae")
     assert part.color == (0.1, 0.2, 0.3, 1.0)
     assert volume(part.vertices, part.faces) == pytest.approx(0.2 * 0.1 * 0.3)
     assert part.vertices.min(axis=0) == pytest.approx([-0.1, 0, 0.01])  # turned by 90 degrees, raised by 1 cm
@@ -92,7 +92,7 @@ def test_the_robots_meshes_are_read_as_coal_reads_them():
     folder = load("romeo").robot.path.parent.parent / "meshes" / "V1" / "visual"
     for path in [folder / "Torso.dae", folder / "LHipPitch.dae"]:
         theirs = np.array(coal.MeshLoader().load(str(path), np.ones(3)).vertices()).reshape(-1, 3)
-        ours = np.concatenate([part.vertices for part in meshfiles.read(path)])
+        ours = np.concatenate([part.vertices for part in mesh_files.read(path)])
         assert ours.min(axis=0) == pytest.approx(theirs.min(axis=0), abs=1e-6)
         assert ours.max(axis=0) == pytest.approx(theirs.max(axis=0), abs=1e-6)
 
@@ -116,7 +116,7 @@ DAMAGED = {
 def test_damaged_files_are_refused_in_one_line(tmp_path, name):
     (tmp_path / name).write_bytes(DAMAGED[name])
     with pytest.raises(FormatError) as raised:
-        meshfiles.read(tmp_path / name)
+        mesh_files.read(tmp_path / name)
     assert len(str(raised.value).splitlines()) == 1
 
 
@@ -125,7 +125,7 @@ def test_deeply_nested_collada_is_refused(tmp_path):
     text = dae(CORNERS, FACES).replace(b"<node>", nodes + b"<node>")
     (tmp_path / "deep.dae").write_bytes(text)
     with pytest.raises(FormatError, match="nested"):
-        meshfiles.read(tmp_path / "deep.dae")
+        mesh_files.read(tmp_path / "deep.dae")
 
 
 def _sphere():
@@ -252,7 +252,7 @@ def test_mirrored_meshes_keep_their_outside_outside(tmp_path):
 
 
 def test_too_many_triangles_are_left_away_and_said(tmp_path, monkeypatch):
-    from exo_pin.viewer import meshes as module
+    from exo_pin.viewer.meshes import urdf_meshes as module
 
     monkeypatch.setattr(module, "MANY", 20)
     meshes = Meshes(package(tmp_path), 1.0)

@@ -13,8 +13,8 @@ import pytest
 from exo_pin import viewer
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer import page
-from exo_pin.viewer.bundle import bundle
+from exo_pin.viewer.page import page
+from exo_pin.viewer.page.bundle import bundle
 
 HOSTILE = """</title><script>alert("1")</script>&'{{engine}}"""
 LARGEST = {False: 1_500_000, True: 2_000_000}  # bytes of an offline page without and with the wearer

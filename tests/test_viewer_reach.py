@@ -13,8 +13,8 @@ from exo_pin.compare import compare, dressed
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot, load_urdf
-from exo_pin.viewer import messages
-from exo_pin.viewer.reach import TOLERANCE, TURN, reacher
+from exo_pin.viewer.live import messages
+from exo_pin.viewer.live.foot_drag import TOLERANCE, TURN, reacher
 
 FEET = ("left_foot", "right_foot")
 EXACT = 1e-6  # [m, rad]: what "reached" promises

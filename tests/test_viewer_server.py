@@ -19,7 +19,7 @@ from exo_pin import viewer
 from exo_pin.errors import ExoPinError
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.bundle import bundle
+from exo_pin.viewer.page.bundle import bundle
 
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
 FLOOD = 400  # wishes at once

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exo_pin.viewer import solids
+from exo_pin.viewer.meshes import solids
 
 lengths = st.floats(0.004, 1.0)
 

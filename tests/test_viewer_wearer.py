@@ -7,7 +7,7 @@ from exo_pin import viewer
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer import figure
+from exo_pin.viewer.scene import person_figure
 
 CENTIMETRE = 0.01
 
@@ -102,7 +102,7 @@ def test_nobody_is_drawn_where_nobody_is(gait):
 
 
 def test_the_figures_meshes_are_thin_and_in_one_piece():
-    head = figure.part("head", (0.0056,) * 3)
+    head = person_figure.part("head", (0.0056,) * 3)
     assert 100 < len(head.vertices) < 2000
     assert np.ptp(head.vertices, axis=0) == pytest.approx([0.18, 0.18, 0.235], abs=0.02)
     assert set(head.faces.ravel()) == set(range(len(head.vertices)))

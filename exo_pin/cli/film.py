@@ -26,11 +26,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Show frame by frame and write the film."""
-    from exo_pin.viewer import film
+    from exo_pin.viewer.film import shots
 
     size = pixels(args.size)
     scene = walk.scene(args, *walk.read(args))
-    data = film.film(
+    data = shots.film(
         scene,
         Path(args.output),
         camera=args.camera,

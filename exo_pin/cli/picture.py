@@ -49,14 +49,14 @@ def pixels(text: str) -> tuple[int, int]:
 
 def run(args: argparse.Namespace) -> int:
     """Show and photograph."""
-    from exo_pin.viewer import film
+    from exo_pin.viewer.film import shots
 
     size = pixels(args.size)
     if Path(args.output).suffix.lower() != ".png":
         raise DescriptionError(f"{args.output}: a picture ends in .png")
     scene = walk.scene(args, *walk.read(args))
     view = {"camera": args.camera, "size": size, "curves": args.curves, "quality": args.quality}
-    data = film.picture(scene, phase=args.phase, **view)
+    data = shots.picture(scene, phase=args.phase, **view)
     write_bytes(args.output, data)
     print(f"{args.output}: {size[0]} x {size[1]}, {len(data) / 1e3:.0f} kB")
     return 0

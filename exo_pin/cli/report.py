@@ -102,10 +102,10 @@ def run(args: argparse.Namespace) -> int:
 def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, bytes]:
     """The offline page as text, and its picture for paper if one is asked for."""
     from exo_pin import viewer
-    from exo_pin.viewer import film
+    from exo_pin.viewer.film import shots
 
     scene = walk.scene(args, body, gait)
-    still = film.picture(scene, phase=_STILL, size=_PAPER) if args.still else b""
+    still = shots.picture(scene, phase=_STILL, size=_PAPER) if args.still else b""
     return viewer.html(scene), still
 
 

@@ -93,7 +93,7 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
     """The model and ten poses by the browser; nothing where there is none, and a line that says so."""
     from exo_pin import viewer
     from exo_pin.report import Rendered
-    from exo_pin.viewer import film
+    from exo_pin.viewer.film import shots
 
     if args.no_render:
         return Rendered()
@@ -101,8 +101,8 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
     look: dict[str, Any] = {"quality": args.quality}
     phases = [k / _POSES for k in range(_POSES)]
     try:
-        model = film.picture(scene, size=_MODEL, **look)
-        poses = film.pictures(scene, phases, camera="left", size=_POSE, legend=False, **look)
+        model = shots.picture(scene, size=_MODEL, **look)
+        poses = shots.pictures(scene, phases, camera="left", size=_POSE, legend=False, **look)
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
         return Rendered()

@@ -11,22 +11,22 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from exo_pin.viewer.compiler import retargeted, scene
-    from exo_pin.viewer.export import html
-    from exo_pin.viewer.facts import Scene
+    from exo_pin.viewer.live.server import Server, serve
     from exo_pin.viewer.notebook import View, view
-    from exo_pin.viewer.server import Server, serve
+    from exo_pin.viewer.page.export import html
+    from exo_pin.viewer.scene.compiler import retargeted, scene
+    from exo_pin.viewer.scene.scene import Scene
 
 __all__ = ["Scene", "Server", "View", "html", "retargeted", "scene", "serve", "view"]
 
 _HOMES = {
-    "Scene": "facts",
-    "Server": "server",
+    "Scene": "scene.scene",
+    "Server": "live.server",
     "View": "notebook",
-    "html": "export",
-    "retargeted": "compiler",
-    "scene": "compiler",
-    "serve": "server",
+    "html": "page.export",
+    "retargeted": "scene.compiler",
+    "scene": "scene.compiler",
+    "serve": "live.server",
     "view": "notebook",
 }
 

@@ -9,8 +9,8 @@ from typing import Any
 
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
-from exo_pin.viewer.compiler import scene
-from exo_pin.viewer.export import html
+from exo_pin.viewer.page.export import html
+from exo_pin.viewer.scene.compiler import scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ import pytest
 from exo_pin import viewer
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer import chromium
+from exo_pin.viewer.film import chromium
 
 
 @pytest.fixture(scope="session")

@@ -8,8 +8,8 @@ import time
 import pytest
 
 from exo_pin.errors import ExoPinError
-from exo_pin.viewer import chromium
-from exo_pin.viewer.chromium import Chromium
+from exo_pin.viewer.film import chromium
+from exo_pin.viewer.film.chromium import Chromium
 
 SOON = 10.0  # [s]: far below the driver's own patience
 

@@ -11,8 +11,8 @@ import pytest
 from exo_pin import viewer
 from exo_pin.anatomy import FEET
 from exo_pin.kinematics import poses
-from exo_pin.viewer import messages
-from exo_pin.viewer.reach import TURN, reacher
+from exo_pin.viewer.live import messages
+from exo_pin.viewer.live.foot_drag import TURN, reacher
 
 SINGLE = 1e-6  # [m]: the page's base is float32
 EXACT = 2e-6  # [m, rad]: twice what "reached" promises, for each of the two

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
-from exo_pin.viewer import chromium, encode, film
+from exo_pin.viewer.film import chromium, encode, shots
 
 SMALL = {"size": (320, 240), "quality": "low"}
 
@@ -27,7 +27,7 @@ def colours(image):
 
 
 def test_a_picture_has_the_size_that_was_asked_for_and_both_legs(scene):
-    image = Image.open(io.BytesIO(film.picture(scene, phase=0.3, **SMALL)))
+    image = Image.open(io.BytesIO(shots.picture(scene, phase=0.3, **SMALL)))
     assert image.size == SMALL["size"]
     red, blue = colours(image)
     assert red > 20
@@ -35,8 +35,8 @@ def test_a_picture_has_the_size_that_was_asked_for_and_both_legs(scene):
 
 
 def test_cameras_and_phases_make_other_pictures(scene):
-    early, late = film.pictures(scene, [0, 0.4], **SMALL, camera="left", legend=False)
-    assert len({early, late, film.picture(scene, **SMALL)}) == 3
+    early, late = shots.pictures(scene, [0, 0.4], **SMALL, camera="left", legend=False)
+    assert len({early, late, shots.picture(scene, **SMALL)}) == 3
 
 
 def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
@@ -47,7 +47,7 @@ def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
             seen.append(phase)
             yield phase
 
-    data = film.film(scene, tmp_path / "walk.gif", **SMALL, fps=4, progress=progress)
+    data = shots.film(scene, tmp_path / "walk.gif", **SMALL, fps=4, progress=progress)
     gif = Image.open(io.BytesIO(data))
     assert gif.n_frames == len(seen) == round(scene.facts.duration * 4)
     assert gif.info["duration"] == 250
@@ -59,7 +59,7 @@ def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, b
     path = chromium.find()
     monkeypatch.setattr(encode.shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
     monkeypatch.setenv("EXO_PIN_CHROMIUM", path)
-    data = film.film(scene, tmp_path / "walk.webm", **SMALL, fps=5, curves=curves)
+    data = shots.film(scene, tmp_path / "walk.webm", **SMALL, fps=5, curves=curves)
     assert data.startswith(bytes.fromhex("1a45dfa3"))
     source = base64.b64encode(data).decode()
     browser.open("about:blank", until="true")
@@ -73,19 +73,19 @@ def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, b
 
 
 def test_an_mp4_without_ffmpeg_says_what_is_missing(scene, tmp_path, monkeypatch):
-    monkeypatch.setattr(film.shutil, "which", lambda name: None)
+    monkeypatch.setattr(shots.shutil, "which", lambda name: None)
     with pytest.raises(ExoPinError, match="ffmpeg"):
-        film.film(scene, tmp_path / "walk.mp4")
+        shots.film(scene, tmp_path / "walk.mp4")
 
 
 def test_what_is_out_of_range_is_refused(scene, tmp_path):
     with pytest.raises(UnknownNameError):
-        film.picture(scene, camera="up")
+        shots.picture(scene, camera="up")
     for wrong in ({"phase": 2}, {"size": (5, 5)}):
         with pytest.raises(DescriptionError):
-            film.picture(scene, **wrong)
+            shots.picture(scene, **wrong)
     with pytest.raises(DescriptionError):
-        film.pictures(scene, [0.5, -0.1])
+        shots.pictures(scene, [0.5, -0.1])
     for name, fps in (("walk.avi", 10), ("walk.gif", 0)):
         with pytest.raises(DescriptionError):
-            film.film(scene, tmp_path / name, fps=fps)
+            shots.film(scene, tmp_path / name, fps=fps)

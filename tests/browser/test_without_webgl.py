@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from exo_pin.viewer import chromium
+from exo_pin.viewer.film import chromium
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,5 @@
 /* Reach: the page's own inverse kinematics, for a page without Python behind it. Damped least squares within
-   the joint limits (exo_pin/ik/least_squares/single_sample.py in small), on the scene's own nodes. Speaks as exo_pin/viewer/reach.py does. */
+   the joint limits (exo_pin/ik/least_squares/single_sample.py in small), on the scene's own nodes. Speaks as exo_pin/viewer/live/foot_drag.py does. */
 
 const TURN = 0.1; // what a rotation error of 1 rad counts in metres: so far it moves the sole's points on average
 const THERE = 1e-6; // a foot this near to its target [m, rad] is there

@@ -1,0 +1,159 @@
+"""Pictures and films: a headless browser shows the offline page moment by moment.
+
+PNG and GIF need Chromium alone; MP4 needs ffmpeg besides; WebM takes ffmpeg where it is found and else the
+browser's own recorder. The handles of the feet are left out: nobody can take them in a picture.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
+from exo_pin.viewer.film.chromium import Chromium
+from exo_pin.viewer.film.encode import FILMS
+from exo_pin.viewer.page.export import html
+from exo_pin.viewer.scene.scene import Scene
+
+CAMERAS = ("iso", "left", "right", "front", "back", "top", "feet")
+"""Names of the clinical views, as in the page."""
+
+QUALITIES = ("high", "low")
+"""With studio light and shadows, or plain shading."""
+
+SIDES = (16, 8192)
+"""Smallest and largest side of a picture [px]."""
+
+_NO_HANDS = "#grips { display: none !important }"
+_ALONE = """
+header, #side, #controls, #cameras, #show, #notice { display: none !important }
+#app { display: block !important } #view { position: fixed !important; inset: 0 }
+#pane { inset: 0 !important }
+"""
+
+
+def picture(
+    scene: Scene,
+    *,
+    phase: float = 0.0,
+    camera: str = "iso",
+    size: tuple[int, int] = (1920, 1080),
+    curves: bool = False,
+    quality: str = "high",
+) -> bytes:
+    """One moment as PNG.
+
+    Args:
+        scene: What to show.
+        phase: Share of the walk's duration, 0 .. 1.
+        camera: One of `CAMERAS`.
+        size: Width and height [px].
+        curves: The whole page with its curves, not the 3-D picture alone.
+        quality: `"high"`: studio light and shadows, seconds to load without a graphics card; `"low"`: plain.
+
+    Raises:
+        DescriptionError: A size or phase is out of range.
+        UnknownNameError: There is no such camera.
+        ExoPinError: There is no Chromium.
+    """
+    (shot,) = pictures(scene, [phase], camera=camera, size=size, curves=curves, quality=quality)
+    return shot
+
+
+def pictures(
+    scene: Scene,
+    phases: Sequence[float],
+    *,
+    camera: str = "iso",
+    size: tuple[int, int] = (1920, 1080),
+    curves: bool = False,
+    quality: str = "high",
+    legend: bool = True,
+) -> list[bytes]:
+    """Several moments as PNG, by one browser, with or without the legend; else as `picture`."""
+    for phase in phases:
+        if not 0 <= phase <= 1:
+            raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
+    with _page(scene, camera, size, curves, quality) as browser:
+        browser.evaluate(f"document.getElementById('legend').hidden = {'false' if legend else 'true'}")
+        return list(_shots(browser, phases))
+
+
+def film(
+    scene: Scene,
+    path: Path,
+    *,
+    camera: str = "iso",
+    size: tuple[int, int] = (960, 720),
+    fps: float = 30.0,
+    curves: bool = False,
+    quality: str = "high",
+    progress: Callable[[Sequence[float]], Iterable[float]] = lambda phases: phases,
+) -> bytes:
+    """The whole walk, at the scene's playback speed, as the bytes of a GIF, WebM or MP4.
+
+    Args:
+        scene: What to show.
+        path: Its ending says the kind: one of `FILMS`.
+        camera: One of `CAMERAS`.
+        size: Width and height [px].
+        fps: Frames per second.
+        curves: The whole page with its curves, not the 3-D picture alone.
+        quality: `"high"` or `"low"`.
+        progress: Wraps the phases that are shown one after the other, e.g. in a progress bar.
+
+    Raises:
+        DescriptionError: Unknown ending, or a size or frame rate out of range.
+        ExoPinError: Chromium or ffmpeg is missing.
+    """
+    kind = path.suffix.lower()
+    if kind not in FILMS:
+        raise DescriptionError(f"{path}: a film ends in {', '.join(FILMS)}")
+    if kind == ".mp4" and not shutil.which("ffmpeg"):
+        raise ExoPinError("an MP4 needs ffmpeg (e.g. `apt install ffmpeg`); .webm and .gif do without")
+    if not 1 <= fps <= 60:
+        raise DescriptionError(f"fps is {fps:g}; 1 .. 60 is accepted")
+    count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
+    phases = progress([k / count for k in range(count)])
+    with _page(scene, camera, size, curves, quality) as browser:
+        return FILMS[kind](_shots(browser, phases), fps, browser)
+
+
+@contextmanager
+def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool, quality: str) -> Iterator[Chromium]:
+    """The offline page in a browser, standing still."""
+    if quality not in QUALITIES:
+        raise UnknownNameError("quality", quality, QUALITIES)
+    if camera not in CAMERAS:
+        raise UnknownNameError("camera", camera, CAMERAS)
+    if not all(SIDES[0] <= side <= SIDES[1] for side in size):
+        raise DescriptionError(f"size is {size[0]}x{size[1]}; {SIDES[0]} .. {SIDES[1]} px a side is accepted")
+    with tempfile.TemporaryDirectory(prefix="exo_pin-film-") as folder, Chromium(size) as browser:
+        page = Path(folder) / "walk.html"
+        page.write_text(html(scene), encoding="utf-8")
+        browser.open(f"{page.as_uri()}#quality={quality}")
+        if not browser.evaluate("exo.stage !== null"):
+            raise ExoPinError("this Chromium shows no 3-D pictures (WebGL is off or missing)")
+        browser.evaluate(
+            f"document.head.append(Object.assign(document.createElement('style'), "
+            f"{{ textContent: `{_NO_HANDS if curves else _NO_HANDS + _ALONE}` }}))"
+        )
+        browser.evaluate("exo.clock.play(false)")
+        browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        browser.evaluate(f"exo.look('{camera}')")
+        yield browser
+
+
+def _show(browser: Chromium, phase: float) -> None:
+    browser.evaluate(
+        f"exo.seek({phase!r} * exo.clock.duration); exo.apply(); exo.controls.show(exo); exo.stage.draw()"
+    )
+
+
+def _shots(browser: Chromium, phases: Iterable[float]) -> Iterator[bytes]:
+    for phase in phases:
+        _show(browser, phase)
+        yield browser.screenshot()

@@ -1,0 +1,147 @@
+"""The meshes that a URDF names: found inside its own package alone, thinned, in the link's own metres.
+
+A URDF may be anybody's, so no file name in it is followed out of the folders that belong to it: the URDF's
+own folder (and the one above, where it lies in a folder like `urdf/`), the package that it lies in, packages
+beside that one, those of ROS's search path, and example-robot-data.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from exo_pin.errors import FormatError
+from exo_pin.examples import located
+from exo_pin.viewer.meshes import mesh_files
+from exo_pin.viewer.meshes.solids import Color, Solid
+from exo_pin.viewer.meshes.thinning import shaded, thinned
+
+Triple = tuple[float, float, float]
+
+FINENESS = 280
+"""Meshes are thinned to cells of this share of the robot's size: 6 mm for a person's."""
+
+INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
+"""Names of folders that lie inside a package rather than being it."""
+
+KEPT = 256
+"""So many meshes stay in memory: several robots', or one robot's and its ghost's."""
+
+MANY = 3_000_000
+"""Triangles that are read at most; what comes then is left away."""
+
+
+class Meshes:
+    """Reads the meshes of one URDF; what cannot be had is counted in `missing`, with a reason."""
+
+    def __init__(self, urdf: Path | None, size: float, *, turned: bool = False) -> None:
+        """Read on demand.
+
+        Args:
+            urdf: The URDF's path; None: it has no meshes.
+            size: Of the robot [m].
+            turned: Apply COLLADA's `up_axis`: what has y up is turned to z up.
+        """
+        self.turned, self.y_up = turned, False
+        self.urdf = None if urdf is None else Path(os.path.realpath(urdf))
+        self.cell = size / FINENESS
+        self.missing: dict[str, str] = {}
+        self.triangles = 0
+
+    def solids(self, name: str, scale: Triple) -> list[tuple[Solid, Color | None]]:
+        """The parts of a mesh by its file name in the URDF, each with its colour if it has one."""
+        path = self.find(name)
+        if path is None:
+            self.missing[name] = "not found in the URDF's package"
+            return []
+        try:
+            triangles, y_up, parts = _light(path, path.stat().st_mtime_ns, scale, self.cell, self.turned)
+        except FormatError as error:
+            self.missing[name] = error.why
+            return []
+        self.y_up = self.y_up or y_up
+        self.triangles += triangles
+        if self.triangles > MANY:
+            self.missing[name] = f"more than {MANY} triangles in all"
+            return []
+        return list(parts)
+
+    def find(self, name: str) -> Path | None:
+        """Where a file name of the URDF leads, or None where that is outside of what belongs to the URDF."""
+        if self.urdf is None or "\0" in name:
+            return None
+        scheme, mark, rest = name.partition("://")
+        if mark and scheme == "package":
+            package, _, inside = rest.lstrip("/").partition("/")
+            tried = [(root, root / inside) for root in _packages(self.urdf, package)]
+        elif mark and scheme != "file":
+            return None
+        else:
+            tried = [(root, self.urdf.parent / (rest if mark else name)) for root in _own(self.urdf)]
+        for root, path in tried:
+            real = Path(os.path.realpath(path))
+            if real.is_relative_to(os.path.realpath(root)) and real.is_file():
+                return real
+        return None
+
+
+def _own(urdf: Path) -> Iterator[Path]:
+    """The folders in which a URDF may name files by their place."""
+    yield urdf.parent.parent if urdf.parent.name.lower() in INNER else urdf.parent
+    for folder in urdf.parents:
+        if (folder / "package.xml").is_file():
+            yield folder
+            return
+
+
+def _packages(urdf: Path, name: str) -> Iterator[Path]:
+    """The folders that a package of that name may be."""
+    if not name or name in (".", ".."):
+        return
+    yield from _around(urdf, name)
+    for root in _search_path("ROS_PACKAGE_PATH"):
+        yield from (folder for folder in (root, root / name) if folder.name == name)
+    for root in _search_path("AMENT_PREFIX_PATH"):
+        yield root / "share" / name
+    if name == "example-robot-data":
+        manifest = located("example-robot-data/package.xml")
+        if manifest is not None:
+            yield manifest.parent
+
+
+def _around(urdf: Path, name: str) -> Iterator[Path]:
+    """The packages of that name that a URDF lies in, or beside."""
+    for folder in urdf.parents:
+        if folder.name == name:
+            yield folder
+        if (folder / name / "package.xml").is_file():
+            yield folder / name
+
+
+def _search_path(variable: str) -> list[Path]:
+    return [Path(root) for root in os.environ.get(variable, "").split(os.pathsep) if root]
+
+
+@lru_cache(maxsize=KEPT)
+def _light(
+    path: Path, changed: int, scale: Triple, cell: float, turned: bool
+) -> tuple[int, bool, tuple[tuple[Solid, Color | None], ...]]:
+    """Triangles in the file, whether it has y up, and its parts, thinned; read again when it has changed."""
+    parts = mesh_files.read(path)
+    solids = tuple((_thin(part, scale, cell, turned), part.color) for part in parts)
+    return sum(len(part.faces) for part in parts), any(part.y_up for part in parts), solids
+
+
+def _thin(part: mesh_files.Part, scale: Triple, cell: float, turned: bool) -> Solid:
+    vertices = part.vertices
+    if part.y_up and turned:
+        vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)
+    vertices = vertices * np.array(scale)
+    faces = part.faces if np.prod(scale) > 0 else part.faces[:, ::-1]
+    size = float(np.ptp(vertices, axis=0).max())
+    # smaller for small parts, so that a finger is not a lump; never so small that a grid overflows
+    return shaded(*thinned(vertices, faces, max(min(cell, size / 24), size / 4000, 1e-6)))

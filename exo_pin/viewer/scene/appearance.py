@@ -1,0 +1,89 @@
+"""A robot's looks: its links with the meshes of its package, or capsules and foot plates in their place."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.ground.placement import moved
+from exo_pin.kinematics import poses
+from exo_pin.retarget import Machine
+from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place, translation
+from exo_pin.viewer.meshes import solids
+from exo_pin.viewer.meshes.urdf_meshes import Meshes
+from exo_pin.viewer.scene.link_nodes import GREY, Linkage, linkage
+from exo_pin.viewer.scene.soles import Sole
+
+Array = NDArray[np.float64]
+
+PLATE = 0.02
+"""Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""
+
+
+def dressed(machine: Machine, root: str, paint: Material | None) -> tuple[Linkage, Meshes]:
+    """The robot's links with their looks.
+
+    Where COLLADA files say that y is up, some tools turn them and some do not, and robots are made for the
+    ones or the others: what is taken is where the meshes cover the joints of their links better.
+    """
+    tried = []
+    for turned in (False, True):
+        meshes = Meshes(machine.robot.path, height(machine), turned=turned)
+        tree = linkage(machine.robot.urdf, root, paint=paint, meshes=meshes)
+        if not meshes.y_up:
+            return tree, meshes
+        tried.append((_apart(machine, tree), turned, tree, meshes))
+    *_, tree, meshes = min(tried, key=lambda one: one[:2])
+    return tree, meshes
+
+
+def _apart(machine: Machine, tree: Linkage) -> float:
+    """How far the joints that hang on links lie outside of the boxes around their looks, in sum [m]."""
+    robot, apart = machine.robot, 0.0
+    for joint in robot.joints:
+        index = robot.model.frames[robot.frame(joint)].parentFrame
+        link = str(robot.model.frames[index].name)
+        if link in tree.shapes:
+            T_link, T_joint = poses(robot, machine.stand, (link, joint))
+            place = moved(np.linalg.inv(T_link), T_joint[:3, 3])
+            corners = tree.shapes[link].vertices
+            outside = np.maximum(corners.min(axis=0) - place, place - corners.max(axis=0))
+            apart += float(np.maximum(outside, 0.0).sum())
+    return apart
+
+
+def bare(machine: Machine, sole: Sole, tree: Linkage) -> bool:
+    """Whether nothing is drawn of a foot, with its fixed parts."""
+    model = machine.robot.model
+    joint = model.frames[machine.robot.frame(sole.link)].parentJoint
+    return not any(frame.parentJoint == joint and frame.name in tree.shapes for frame in model.frames)
+
+
+def plate(tree: Linkage, sole: Sole) -> list[Command]:
+    """A plate for a foot that has no looks."""
+    length, width = sole.size
+    solid = solids.box((length, width, PLATE))
+    x, y = sole.middle
+    path = f"{tree.links[sole.link]}/plate"
+    return [
+        draw(path, mesh(solid.vertices, solid.faces, solid.normals), Material(GREY, 0.6, 0.1)),
+        place(path, sole.T @ translation(x, y, PLATE / 2)),
+    ]
+
+
+def height(machine: Machine) -> float:
+    """From the lowest to the highest joint, standing [m]; at least twice the legs."""
+    robot = machine.robot
+    T = poses(robot, machine.stand, robot.joints)
+    return max(float(np.ptp((T[:, :3, 3] @ machine.turn)[:, 2])), 2 * machine.legs[0].reach)
+
+
+def highest(machine: Machine, tree: Linkage) -> float:
+    """The highest point of the robot above its root, standing [m]."""
+    links = list(tree.shapes)
+    if not links:
+        return 0.0
+    T = poses(machine.robot, machine.stand, links)
+    up = machine.turn[:, 2]
+    rows = zip(links, T, strict=True)
+    return max(float((moved(pose, tree.shapes[link].vertices) @ up).max()) for link, pose in rows)

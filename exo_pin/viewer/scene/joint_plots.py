@@ -1,0 +1,210 @@
+"""The joint curves beside the picture: which plots there are, and the samples that they draw."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.gait import Gait, Torques, curves
+from exo_pin.robot import Robot
+from exo_pin.viewer.scene.scene import Plot, PlotGroup, Series
+
+Array = NDArray[np.float64]
+
+FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
+"""The plots at the top: the sagittal plane; the others follow in the robot's order."""
+
+NO_LIMIT = 1e6
+"""Stands for an infinite limit, which JSON does not know."""
+
+_SIDE = re.compile(r"(?<![a-z])(left|right|l|r)(?![a-z])|^([LR])(?=[A-Z])")
+"""`left_knee`, `leg_left_4_joint`, `l_knee`, `LKneePitch`."""
+
+
+class Unit(NamedTuple):
+    """How values are shown: times `factor`, with `digits` decimals, on an axis of at least `least`."""
+
+    name: str
+    factor: float
+    digits: int
+    least: float
+
+
+DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
+DEGREES_PER_SECOND = Unit("°/s", 180 / math.pi, 0, 60.0)
+NEWTON_METRES = Unit(" N m", 1.0, 0, 20.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Tab:
+    """One quantity of joints over time: a tab of plots.
+
+    Attributes:
+        title: Of the tab.
+        name: Of its array in the scene.
+        joints: The joint of each column.
+        values: `(n, J)` samples on the scene's time; NaN is a gap.
+        lower: `(J,)` lower limits, in the unit of the values; infinite: none.
+        upper: `(J,)` upper limits.
+        unit: How values are shown.
+        reference: `(m, J)` dashed curves on a time of their own, or None.
+        reference_time: `(m,)` from 0 [s].
+        compared: `(n, J)` dotted curves of a second walk on the scene's time, or None.
+    """
+
+    title: str
+    name: str
+    joints: tuple[str, ...]
+    values: Array
+    lower: Array
+    upper: Array
+    unit: Unit
+    reference: Array | None = None
+    reference_time: Array | None = None
+    compared: Array | None = None
+
+    @property
+    def dashed(self) -> str:
+        """Name of the dashed curves' array; empty: there are none."""
+        return "" if self.reference is None else f"{self.name}_reference"
+
+    @property
+    def dotted(self) -> str:
+        """Name of the dotted curves' array; empty: there are none."""
+        return "" if self.compared is None else f"{self.name}_compared"
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """Its samples by name."""
+        rows = {self.name: self.values}
+        if self.reference is not None and self.reference_time is not None:
+            rows |= {self.dashed: self.reference, f"{self.dashed}_time": self.reference_time}
+        if self.compared is not None:
+            rows[self.dotted] = self.compared
+        return rows
+
+
+def of_gait(
+    robot: Robot, gait: Gait, reference: Gait | None = None, torques: Torques | None = None
+) -> tuple[Tab, ...]:
+    """Angles, velocities and (when given) torques of a walk, in the clinical order of `JOINTS`.
+
+    Args:
+        robot: Whose limits are drawn. Joints that it locks stand still and have none.
+        gait: The walk that is shown.
+        reference: The walk of the dashed curves.
+        torques: On the walk's own clock.
+
+    Raises:
+        GaitError: The torques belong to another time.
+    """
+    if not set(JOINTS) <= set(robot.joints):
+        gait = robot.to_gait(robot.from_gait(gait), gait)
+    limits = robot.upper, -robot.lower, robot.velocity, robot.effort
+    upper, lower, speed, effort = (_clinical(robot, limit) for limit in limits)
+    angles, speeds, time = None, None, None
+    if reference is not None:
+        angles, speeds, time = reference.q, reference.dq, reference.time - reference.time[0]
+    tabs = (
+        Tab("Angles", "angles", JOINTS, gait.q, -lower, upper, DEGREES, angles, time),
+        Tab("Velocities", "speeds", JOINTS, gait.dq, -speed, speed, DEGREES_PER_SECOND, speeds, time),
+    )
+    if torques is None:
+        return tabs
+    known = [JOINTS.index(joint) for joint in torques.joints]
+    tau, most = torques.at(gait.time)[:, known], effort[known]
+    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -most, most, NEWTON_METRES))
+
+
+def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None = None) -> tuple[Tab, ...]:
+    """Angles and velocities of any robot, under its joints' own names.
+
+    Args:
+        robot: Whose joints and limits are drawn.
+        time: `(n,)` strictly increasing [s].
+        q: `(n, nq)` configurations.
+        joints: Which of its joints; all that turn if left out (slides are never drawn).
+
+    Raises:
+        UnknownNameError: The robot has no such joint.
+    """
+    names = [name for name in joints or robot.joints if _turns(robot, name)]
+    own = [robot.column(name) + len(robot.joints) - robot.nq for name in names]
+    angles = robot.angles(q)[:, own]
+    speeds, speed = curves.derivative(time, angles, 1, None), robot.velocity[own]
+    lower, upper = robot.lower[own], robot.upper[own]
+    return (
+        Tab("Angles", "angles", tuple(names), angles, lower, upper, DEGREES),
+        Tab("Velocities", "speeds", tuple(names), speeds, -speed, speed, DEGREES_PER_SECOND),
+    )
+
+
+def beside(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, ...]:
+    """Tabs with the curves of a second walk dotted in those that both have."""
+    values = {tab.name: tab.values for tab in second}
+    return tuple(replace(tab, compared=values.get(tab.name)) for tab in tabs)
+
+
+def groups(tabs: Iterable[Tab]) -> tuple[PlotGroup, ...]:
+    """What the page is told of the tabs: one plot for left and right of a joint."""
+    return tuple(PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab)) for tab in tabs)
+
+
+def arrays(tabs: Iterable[Tab]) -> dict[str, Array]:
+    """The samples of all tabs by name."""
+    return {name: rows for tab in tabs for name, rows in tab.arrays.items()}
+
+
+def notes(torques: Torques | None) -> list[str]:
+    """Where the torques come from and what their sign means."""
+    if torques is None:
+        return []
+    whose = f" ({torques.source})" if torques.source else ""
+    return [
+        f"Torques{whose}: positive drives the joint the way its name says; the limits are the actuators'."
+    ]
+
+
+def pairs(joints: Sequence[str]) -> dict[str, dict[str, int]]:
+    """Movement -> side -> column: joints whose names differ in the side alone belong together.
+
+    A joint of neither side has the side `"middle"`. The sagittal plane comes first, then the given order.
+    """
+    found: dict[str, dict[str, int]] = {}
+    for column, joint in enumerate(joints):
+        match = _SIDE.search(joint)
+        side = "middle" if match is None else {"l": "left", "r": "right"}[match[0][0].lower()]
+        movement = joint if match is None else (joint[: match.start()] + joint[match.end() :]).strip("_")
+        found.setdefault(movement.replace("__", "_"), {})[side] = column
+    return {name: found[name] for name in (*FIRST, *found) if name in found}
+
+
+def _clinical(robot: Robot, limit: Array) -> Array:
+    """Limits `(J,)` of the robot's joints in the order of `JOINTS`; infinite where it has no such joint."""
+    own = dict(zip(robot.joints, limit, strict=True))
+    return np.array([own.get(joint, np.inf) for joint in JOINTS])
+
+
+def _turns(robot: Robot, joint: str) -> bool:
+    robot.column(joint)  # refuses an unknown one
+    return "JointModelP" not in robot.model.joints[robot.model.getJointId(joint)].shortname()
+
+
+def _plots(tab: Tab) -> tuple[Plot, ...]:
+    plots = []
+    lower, upper = (np.clip(limit, -NO_LIMIT, NO_LIMIT).tolist() for limit in (tab.lower, tab.upper))
+    for movement, sides in pairs(tab.joints).items():
+        title = movement.removesuffix("_joint").replace("_", " ")
+        series = tuple(Series(side, k, lower[k], upper[k]) for side, k in sides.items())
+        unit = tab.unit
+        plots.append(
+            Plot(title[:1].upper() + title[1:], series, unit.factor, unit.name, unit.digits, unit.least)
+        )
+    return tuple(plots)

@@ -1,0 +1,177 @@
+"""The person inside: a translucent figure whose legs hang on the exoskeleton's own links.
+
+The figure is `human_description` of example-robot-data (BSD-2-Clause, Gepetto team), welded, thinned and
+scaled to the body. Thighs, shanks and feet are pictures of the exoskeleton's links, so hips, knees and ankles
+coincide with its joints by construction. The upper body is illustration: the trunk stays nearly upright, and
+the arms swing with the opposite hip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from exo_pin.anatomy import JOINTS, SIDES, Body, Leg
+from exo_pin.gait import Gait
+from exo_pin.viewer.drawing_commands import Command, mesh, place, translation, translucent
+from exo_pin.viewer.meshes import solids
+from exo_pin.viewer.meshes.solids import Solid, sphere
+from exo_pin.viewer.scene.actor import Actor
+from exo_pin.viewer.scene.link_nodes import Turn
+from exo_pin.viewer.scene.person_figure import part, scaled
+from exo_pin.viewer.scene.scene import Chain, Group
+
+Array = NDArray[np.float64]
+
+SKIN = (0.80, 0.62, 0.50, 0.45)
+"""Colour and opacity."""
+
+PLATE = 0.022
+"""The foot stands on the exoskeleton's foot plate, so far above its sole [m]."""
+
+SPREAD = np.radians(11.0)
+"""The arms are held so far away from the waist ring."""
+
+_THIGH, _SHANK, _HEAD = 0.439, 0.44, 0.8315  # the figure's own sizes [m]: hip to knee, to ankle, hip to crown
+_HIP = np.array([0.023, 0.0, -0.1])  # its hip centre seen from its pelvis, without the sideways part
+_LUMBAR = -_HIP
+_SHOULDER = np.array([0.008, 0.182, 0.324])  # seen from the lumbar joint; nearer to the chest than 0.21
+_UPPER_ARM = 0.276
+
+
+def wearer(body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Array) -> Actor:
+    """The person of a body in a walk.
+
+    Args:
+        body: Sizes.
+        links: Link name -> path of the exoskeleton's nodes.
+        root: Path for the upper body.
+        gait: The walk.
+        base: `(n, 4, 4)` pose of the pelvis as shown.
+
+    Raises:
+        ExoPinError: example-robot-data is not installed.
+    """
+    size = (body.stature - body.leg_length) / _HEAD
+    middle = {"pelvis": f"{links['pelvis']}/wearer", "trunk": f"{root}/look"}
+    left, right = (_limbs(links, root, side) for side in SIDES)
+    shapes = _middle(size) | _limb_shapes(body, size)
+    commands = [_picture(path, shapes[name]) for name, path in (middle | left).items()]
+    commands += [place(path, _mirrored(body, name)) for name, path in right.items()]
+    chain, joints = _arms(root, size)
+    return Actor(
+        commands=(*commands, *joints),
+        chain=chain,
+        arrays={"wearer_q": _swing(gait), "wearer_base": _trunk(base, size)},
+        group=Group("Wearer", (*middle.values(), *left.values(), *right.values())),
+        twins=tuple((right[name], left[name]) for name in left),
+    )
+
+
+def _limbs(links: Mapping[str, str], root: str, side: str) -> dict[str, str]:
+    """Part of a limb -> its node."""
+    arm = f"{root}/{side}_upper_arm/turn"
+    return {
+        "thigh": f"{links[f'{side}_thigh']}/wearer",
+        "shank": f"{links[f'{side}_shank']}/wearer",
+        "foot": f"{links[f'{side}_sole_plate']}/wearer",
+        "upper_arm": f"{arm}/look",
+        "forearm": f"{arm}/{side}_forearm/turn/look",
+    }
+
+
+def _picture(path: str, solid: Solid) -> Command:
+    return translucent(path, mesh(solid.vertices, solid.faces, solid.normals), SKIN)
+
+
+def _middle(size: float) -> dict[str, Solid]:
+    """Pelvis, and trunk with head; scales and offsets are those of the figure's URDF."""
+    x, y, z = _LUMBAR - np.array([0.0, 0.0, 0.05])
+    trunk = [
+        part("abdomen", (0.0074,) * 3),
+        part("torso", (0.005783, 0.005783, 0.009093), (0, 0, 0.223 - 0.3596)),
+        part("head", (0.0056,) * 3, (0, 0, 0.473)),
+        sphere(0.046).placed(translation(0, 0, 0.473)),
+    ]
+    pelvis = part("pelvis", (0.00643, 0.0059, 0.0059), (float(x), float(y), float(z)))
+    return {"pelvis": scaled(pelvis, (size,) * 3), "trunk": scaled(solids.joined(trunk), (size,) * 3)}
+
+
+def _limb_shapes(body: Body, size: float) -> dict[str, Solid]:
+    """The left limbs, as long as the body's."""
+    leg = body.leg("left")
+    shank = solids.joined([part("lowerleg", (0.0063, 0.007, 0.0066)), sphere(0.035)])
+    arm = solids.joined([part("upperarm", (0.0063, 0.0069, 0.006), (0, 0, 0.05)), sphere(0.052)])
+    hand = part("hand", (0.0061,) * 3, (0, 0, -0.287))
+    forearm = solids.joined([part("lowerarm", (0.0064,) * 3), sphere(0.034), hand])
+    return {
+        "thigh": scaled(
+            part("upperleg", (0.0062, 0.0069, 0.0064), (0, 0, -0.05)), (size, size, leg.thigh / _THIGH)
+        ),
+        "shank": scaled(shank, (size, size, leg.shank / _SHANK)),
+        "foot": _foot(leg),
+        "upper_arm": scaled(arm, (size,) * 3),
+        "forearm": scaled(forearm, (size,) * 3),
+    }
+
+
+def _foot(leg: Leg) -> Solid:
+    """The foot, stretched between heel, toes and plate."""
+    foot = part("foot", (0.0067,) * 3)
+    low, high = foot.vertices.min(axis=0), foot.vertices.max(axis=0)
+    wide = 0.92 * leg.foot_width / float(high[1] - low[1])
+    long = leg.foot_length / float(high[0] - low[0])
+    moved = scaled(foot, (long, wide, (leg.ankle_height - PLATE) / -float(low[2])))
+    return moved.placed(translation(-leg.heel - float(moved.vertices[:, 0].min()), 0, 0))
+
+
+def _mirrored(body: Body, name: str) -> Array:
+    """What turns a left part into a right one: mirrored, and stretched to the right leg's own sizes."""
+    left, right = body.legs
+    along = {
+        "thigh": (1, 1, right.thigh / left.thigh),
+        "shank": (1, 1, right.shank / left.shank),
+        "foot": (
+            right.foot_length / left.foot_length,
+            right.foot_width / left.foot_width,
+            (right.ankle_height - PLATE) / (left.ankle_height - PLATE),
+        ),
+    }.get(name, (1, 1, 1))
+    return np.diag([*np.array(along) * (1, -1, 1), 1.0])
+
+
+def _arms(root: str, size: float) -> tuple[Chain, list[Command]]:
+    """The upper body's chain: two shoulders and two elbows that flex."""
+    turns, links, commands = [], {"trunk": root}, []
+    for side, s in zip(SIDES, (1, -1), strict=True):
+        upper, fore = f"{root}/{side}_upper_arm", f"{root}/{side}_upper_arm/turn/{side}_forearm"
+        hang = translation(*(size * _SHOULDER * (1, s, 1)))
+        hang[:3, :3] = pin.rpy.rpyToMatrix(s * SPREAD, 0.0, 0.0)
+        commands += [place(upper, hang), place(fore, translation(0, 0, -size * _UPPER_ARM))]
+        for name, path in ((f"{side}_shoulder", upper), (f"{side}_elbow", fore)):
+            turns.append(Turn(name, f"{path}/turn", (0.0, -1.0, 0.0), "revolute"))
+            links[name] = f"{path}/turn"
+    return Chain("wearer", root, links, tuple(turns), "wearer_q", "wearer_base"), commands
+
+
+def _swing(gait: Gait) -> Array:
+    """`(n, 4)` shoulder and elbow of both sides: with the opposite hip, about half as far (illustration)."""
+    columns = []
+    for other in reversed(SIDES):
+        hip = gait.q[:, JOINTS.index(f"{other}_hip_flexion")]
+        swing = hip - hip.mean()
+        columns += [0.55 * swing - 0.05, 0.40 + 0.25 * swing]
+    return np.stack(columns, axis=1)
+
+
+def _trunk(base: Array, size: float) -> Array:
+    """`(n, 7)` pose of the trunk: on the pelvis, with a fifth of its roll and tilt."""
+    rows = []
+    for T in base:
+        roll, pitch, yaw = pin.rpy.matrixToRpy(T[:3, :3])
+        upright = pin.rpy.rpyToMatrix(0.2 * roll, 0.2 * pitch, yaw)
+        rows.append(pin.SE3ToXYZQUAT(pin.SE3(upright, T[:3, 3] + size * T[:3, :3] @ _LUMBAR)))
+    return np.array(rows)
