@@ -15,7 +15,7 @@ import pytest
 from tornado.websocket import websocket_connect
 
 from exo_pin import cache, viewer
-from exo_pin.cli import recent
+from exo_pin.cli import last_picture
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.viewer.page.bundle import bundle
@@ -79,13 +79,13 @@ def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, 
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
     mine = ("--port", str(free_port), "--no-wearer")
     older = bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
-    recent.keep(words(*mine), older)
+    last_picture.keep(words(*mine), older)
     with replaying(tmp_path, *mine) as process:
         first, second = first_messages(free_port, 2)
         assert first == b"\0" + older
         assert second[1:] != older
         said(process)
-    assert recent.recall(words(*mine)) == second[1:]
+    assert last_picture.recall(words(*mine)) == second[1:]
 
 
 def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
@@ -93,12 +93,12 @@ def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
     body = tmp_path / "body.toml"
     body.write_text("stature = 1.7\n")
     for given in (["--body", str(body)], [f"--body={body}"]):
-        recent.keep(words(*given), b"picture")
-        assert recent.recall(words(*given)) == b"picture"
-        assert recent.recall(words(*given, "slow")) is None
+        last_picture.keep(words(*given), b"picture")
+        assert last_picture.recall(words(*given)) == b"picture"
+        assert last_picture.recall(words(*given, "slow")) is None
     body.write_text("stature = 1.71\n")
-    assert recent.recall(words("--body", str(body))) is None
-    assert recent.recall(words(f"--body={body}")) is None
+    assert last_picture.recall(words("--body", str(body))) is None
+    assert last_picture.recall(words(f"--body={body}")) is None
 
 
 def test_the_last_picture_needs_neither_numpy_nor_pinocchio(tmp_path):

@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _before(words: Sequence[str]) -> argparse.Namespace:
     """What is done before the words are understood, which takes NumPy: `replay` shows its last picture."""
-    server = _module("recent").serve(words) if words[:1] == ["replay"] else None
+    server = import_module("exo_pin.cli.last_picture").serve(words) if words[:1] == ["replay"] else None
     return argparse.Namespace(words=words, server=server)
 
 
@@ -106,4 +106,4 @@ def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
 
 
 def _module(name: str) -> ModuleType:
-    return import_module(f"exo_pin.cli.{name}")
+    return import_module(f"exo_pin.cli.commands.{name}")

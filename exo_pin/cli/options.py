@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.body import both_sides
-from exo_pin.cli import plates, trials
+from exo_pin.cli import plate_options, trials
 from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS
 
@@ -51,7 +51,7 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
         walk = load(args.gait, body, **told, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {walk.source}", file=sys.stderr)
-    walk = plates.struck(args, body, walk)
+    walk = plate_options.struck(args, body, walk)
     from exo_pin.gait import doubts
 
     for reason in (*doubts(walk), *trials.doubts(args)):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from exo_pin.cli import plates
+from exo_pin.cli import plate_options
 from exo_pin.errors import DescriptionError, FormatError
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
-    plates.add(group)
+    plate_options.add(group)
 
 
 def mapping(args: argparse.Namespace) -> dict[str, str]:

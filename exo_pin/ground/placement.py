@@ -83,8 +83,8 @@ def stood(
     """
     corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = stance.from_events(gait)
-    stance = known or stance.estimated(gait, stance.lowest_corners(corners))
-    carried = support(style, gait, given, corners, stance, who)
+    standing = known or stance.estimated(gait, stance.lowest_corners(corners))
+    carried = support(style, gait, given, corners, standing, who)
     base = carried.base
     shown = base[:, None] @ T_pelvis
     return Motion(
@@ -94,7 +94,7 @@ def stood(
         feet=shown[:, : len(FEET)],
         corners=shown[:, len(FEET) :, :3, 3],
         com=moved(base, com_pelvis),
-        stance=stance,
+        stance=standing,
         estimated=known is None,
         support=carried,
     )

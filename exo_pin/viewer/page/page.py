@@ -32,7 +32,7 @@ SCRIPTS = (
     "toggles.js",
     "sliders.js",
     "reach.js",
-    "grips.js",
+    "handles.js",
     "record.js",
     "controls.js",
     "transport.js",

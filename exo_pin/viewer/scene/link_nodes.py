@@ -193,7 +193,7 @@ class _Nesting:
 
     def joint(self, joint: ET.Element, path: str) -> None:
         child, name = urdf_elements.end(joint, "child"), joint.get("name", "")
-        held = f"{path}/{elements.node(child)}"
+        held = f"{path}/{urdf_elements.node(child)}"
         self.commands.append(place(held, urdf_elements.pose(joint.find("origin"))))
         kind = MOVING.get(joint.get("type", ""))
         if kind is None:

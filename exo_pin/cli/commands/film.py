@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from exo_pin.cli import show, walk
-from exo_pin.cli.picture import add_view, pixels
+from exo_pin.cli import show, shown_walk
+from exo_pin.cli.commands.picture import add_view, pixels
 from exo_pin.files import write_bytes
 
 _EXAMPLES = """examples:
@@ -29,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin.viewer.film import shots
 
     size = pixels(args.size)
-    scene = walk.scene(args, *walk.read(args))
+    scene = shown_walk.scene(args, *shown_walk.read(args))
     data = shots.film(
         scene,
         Path(args.output),

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, torques, trials, walk
+from exo_pin.cli import options, show, shown_walk, torque_options, trials
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -57,7 +57,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--still", action="store_true", help="a picture in the player's place on paper (needs Chromium)"
     )
-    walk.add(parser)
+    shown_walk.add(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -69,8 +69,8 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError(f"{args.output}: a report ends in .html")
     if not (math.isfinite(args.filter) and args.filter >= 0):
         raise DescriptionError(f"--filter is {args.filter:g}; a frequency in Hz, or 0 for none, is accepted")
-    body, gait = walk.read(args)
-    given = torques.given(args)
+    body, gait = shown_walk.read(args)
+    given = torque_options.given(args)
     gait, note = options.with_events(load_robot(body), gait)
     robot = load_robot(body, device=args.device, hip_order=args.hip_order)
     name = Path(args.gait).name
@@ -104,7 +104,7 @@ def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, byte
     from exo_pin import viewer
     from exo_pin.viewer.film import shots
 
-    scene = walk.scene(args, body, gait)
+    scene = shown_walk.scene(args, body, gait)
     still = shots.picture(scene, phase=_STILL, size=_PAPER) if args.still else b""
     return viewer.html(scene), still
 

@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show, torques
+from exo_pin.cli import options, show, torque_options
 
 if TYPE_CHECKING:
     from exo_pin.feasible import Feasibility, JointDemand
@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gap", type=float, default=0.0, metavar="MM", help="distance that parts must keep [mm] (default: 0)"
     )
-    torques.add(parser)
+    torque_options.add(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
@@ -50,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError("--acceleration must be positive, --gap a number")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
-    known, gap = torques.given(args), args.gap / 1e3
+    known, gap = torque_options.given(args), args.gap / 1e3
     verdict = feasible(gait, args.device, body, acceleration=acceleration, gap=gap, torques=known)
     if args.json:
         show.as_json(verdict.facts())

@@ -129,7 +129,7 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
 
 
 def _cycle(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
-    from exo_pin.cli import cycles
+    from exo_pin.cli.commands import cycles
     from exo_pin.gait import cycles as cut
     from exo_pin.kinematics import with_events
 

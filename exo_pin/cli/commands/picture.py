@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from exo_pin.cli import walk
+from exo_pin.cli import shown_walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_bytes
 
@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def add_view(parser: argparse.ArgumentParser, *, size: str) -> None:
     """What picture and film share: the walk, the file, camera, size and curves."""
-    walk.add(parser)
+    shown_walk.add(parser)
     parser.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write")
     parser.add_argument("--camera", default="iso", help="iso, left, right, front, back, top or feet")
     parser.add_argument("--size", default=size, metavar="WxH", help=f"pixels (default: {size})")
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     size = pixels(args.size)
     if Path(args.output).suffix.lower() != ".png":
         raise DescriptionError(f"{args.output}: a picture ends in .png")
-    scene = walk.scene(args, *walk.read(args))
+    scene = shown_walk.scene(args, *shown_walk.read(args))
     view = {"camera": args.camera, "size": size, "curves": args.curves, "quality": args.quality}
     data = shots.picture(scene, phase=args.phase, **view)
     write_bytes(args.output, data)

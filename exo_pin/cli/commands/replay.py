@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import recent, walk
+from exo_pin.cli import last_picture, shown_walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
 
@@ -33,8 +33,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="FILE", help="write one offline page instead of opening the browser"
     )
-    recent.add_address(parser)
-    walk.add(parser)
+    last_picture.add_address(parser)
+    shown_walk.add(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
         return _serve(args)
     from exo_pin import viewer
 
-    text = viewer.html(walk.scene(args, *walk.read(args)))
+    text = viewer.html(shown_walk.scene(args, *shown_walk.read(args)))
     write_text(args.html, text)
     print(f"{args.html}: {len(text.encode()) / 1e6:.1f} MB, opens in any browser without a network")
     return 0
@@ -59,10 +59,12 @@ def _serve(args: argparse.Namespace) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):  # both, also where a shell's `&` has switched Ctrl-C off
         signal.signal(number, signal.default_int_handler)
     try:
-        given = None if args.server else walk.read(args)  # bad input is said before a browser opens
+        given = None if args.server else shown_walk.read(args)  # bad input is said before a browser opens
         with args.server or _server(args) as server:
-            scene = walk.scene(args, *(given or walk.read(args)))  # the browser opens while this is computed
-            recent.keep(args.words, server.show(scene))
+            scene = shown_walk.scene(
+                args, *(given or shown_walk.read(args))
+            )  # the browser opens while this is computed
+            last_picture.keep(args.words, server.show(scene))
             _say(args, server)
             threading.Event().wait()
     except KeyboardInterrupt:
@@ -73,7 +75,7 @@ def _serve(args: argparse.Namespace) -> int:
 def _server(args: argparse.Namespace) -> Server:
     from exo_pin import viewer
 
-    opens = not args.no_open and recent.has_display()
+    opens = not args.no_open and last_picture.has_display()
     return viewer.serve(host=args.host, port=args.port, open_browser=opens)
 
 
@@ -84,5 +86,5 @@ def _say(args: argparse.Namespace, server: Server) -> None:
     if not server.loopback:
         print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
     print(f"{server.url}   Ctrl-C ends it", flush=True)
-    if not recent.has_display():
+    if not last_picture.has_display():
         print("no display here: open that address, or write a file with --html walk.html", flush=True)

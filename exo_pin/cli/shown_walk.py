@@ -7,7 +7,7 @@ from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, torques
+from exo_pin.cli import options, show, torque_options
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--compare", metavar="GAIT", help="a second walk: a ghost beside the first, its curves dotted"
     )
-    torques.add(parser)
+    torque_options.add(parser)
     parser.add_argument(
         "--support",
         choices=("carried", "still"),
@@ -68,7 +68,7 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
 
     if args.robot is not None:
         return _of_robot(args, body, gait)
-    curves = torques.given(args)
+    curves = torque_options.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
     name = Path(args.gait).name

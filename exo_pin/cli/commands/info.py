@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from exo_pin.cli import cycles, options, outliers, show, trials
+from exo_pin.cli import options, outliers, show, trials
+from exo_pin.cli.commands import cycles
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
