@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES
 from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 ACCELERATION = 200.0
 """Largest joint acceleration [rad/s^2], a design choice: no source gives one for these devices; Schwartz's

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-
-Array = NDArray[np.float64]
 
 CUTOFF = 6.0
 """The gait laboratories' habit [Hz]."""

@@ -6,9 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.names import HIP_ORDERS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
-
-Array = npt.NDArray[np.float64]
 
 
 def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Array:

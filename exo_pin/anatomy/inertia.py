@@ -11,13 +11,11 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.body import Body, Leg
 from exo_pin.anatomy.names import SIDES
-
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array
 
 
 class Part(NamedTuple):

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip import hip_angles
+from exo_pin.arrays import Array
 from exo_pin.devices import Device
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
@@ -27,8 +27,6 @@ from exo_pin.ik.least_squares.velocity_limited import paced
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot, load_robot
-
-Array = npt.NDArray[np.float64]
 
 SETTINGS = ik.Dls(tolerance=1e-10, restarts=0, warm_start=False)
 """Every sample starts from the plain copy, then from its neighbours' answers; no other starts are tried."""

@@ -9,16 +9,14 @@ from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import FEET, MOVEMENTS, Body
+from exo_pin.arrays import Array
 from exo_pin.compare.best_motion import BETTER, SWEEPS, Walk, corners, sole_targets, walk
 from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
 from exo_pin.ik.least_squares.subtree_kernel import settle
 from exo_pin.kinematics import poses
-
-Array = npt.NDArray[np.float64]
 
 SAMPLES = 25
 """Samples of a periodic gait that the study looks at."""

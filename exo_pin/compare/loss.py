@@ -7,15 +7,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.compare.best_motion import Motion, Walk
 from exo_pin.devices import Device
 from exo_pin.gait.phases import masks
 from exo_pin.gait.rigid import angle_of
-
-Array = npt.NDArray[np.float64]
 
 WATCHED = ("hip_flexion", "knee_flexion")
 """Movements whose change against the recorded walk is told."""

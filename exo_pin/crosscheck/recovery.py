@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS
+from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 IK_TOLERANCE = 1e-9
 """Largest distance of the recovered from the given foot [m and rad]."""
@@ -41,7 +39,7 @@ class Recovery:
     given: Gait
     gait: Gait
     track: ik.Track
-    within: npt.NDArray[np.bool_]
+    within: Mask
 
     @property
     def angle_error(self) -> Array:
@@ -49,7 +47,7 @@ class Recovery:
         return self.gait.q - self.given.q
 
     @property
-    def comparable(self) -> npt.NDArray[np.bool_]:
+    def comparable(self) -> Mask:
         """(n, 12) True for angles within limits, of a leg whose knee is bent more than `BENT_KNEE`."""
         knees = [JOINTS.index(f"{side}_knee_flexion") for side in ("left", "right")]
         bent = np.repeat(self.gait.q[:, knees] > BENT_KNEE, len(JOINTS) // 2, axis=1)

@@ -10,11 +10,10 @@ import numpy.typing as npt
 
 from exo_pin import dh
 from exo_pin.anatomy import FEET, JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 FK_TOLERANCE = 1e-12
 """Largest difference between two ways of forward kinematics [m, and of a rotation matrix's entries]."""

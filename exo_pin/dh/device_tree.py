@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.names import MOVEMENTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.recursion import recursion
 
-Array = npt.NDArray[np.float64]
 Witness = Callable[..., dict[str, Array]]
 
 _SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
-
-Array = npt.NDArray[np.float64]
 
 
 def chain(hip_order: str = "clinical") -> tuple[str, ...]:

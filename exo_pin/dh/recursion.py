@@ -9,9 +9,8 @@ import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.names import SIDES
+from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
-
-Array = npt.NDArray[np.float64]
 
 RIGHT_AXES = {
     "hip_flexion": (0.0, -1.0, 0.0),

@@ -7,14 +7,12 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.curves import at_phase
 from exo_pin.gait.rigid import nearest_pose
-
-Array = NDArray[np.float64]
 
 BENDING = 0.9
 """A phase that runs slower than this part below its even course would soon run backwards."""

@@ -6,15 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin import signals
 from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.rigid import nearest_pose
-
-Array = NDArray[np.float64]
 
 STEP = 0.01
 """Samples of a ramp are this close [s], or as close as the walk's own."""

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import leg
-
-Array = npt.NDArray[np.float64]
 
 SOFTLY = 0.12
 """The pelvis comes down within this time before it must [s], and goes up within as much after."""

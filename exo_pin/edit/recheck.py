@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 
@@ -81,7 +81,7 @@ def recheck(robot: Robot, gait: Gait) -> Recheck:
     )
 
 
-def _closest(robot: Robot, excess: npt.NDArray[np.float64]) -> tuple[str, float]:
+def _closest(robot: Robot, excess: Array) -> tuple[str, float]:
     k = int(excess.max(axis=0).argmax())
     return robot.joints[k], float(-excess[:, k].max())
 
@@ -98,7 +98,7 @@ def _hardest(robot: Robot, gait: Gait) -> tuple[str, float]:
     return max((pair for pair in peaks if pair[0] in robot.joints), key=lambda x: x[1])
 
 
-def _fast(robot: Robot, rates: npt.NDArray[np.float64], limit: npt.NDArray[np.float64]) -> dict[str, float]:
+def _fast(robot: Robot, rates: Array, limit: Array) -> dict[str, float]:
     peaks = np.abs(rates).max(axis=0)
     limits = dict(zip(robot.joints, limit.tolist(), strict=True))
     found = zip(JOINTS, peaks.tolist(), strict=True)

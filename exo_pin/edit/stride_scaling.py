@@ -6,10 +6,10 @@ import dataclasses
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.arrays import Array, Mask
 from exo_pin.edit.pelvis_drop import drop, softened
 from exo_pin.edit.recheck import JOLT
 from exo_pin.errors import ConvergenceError, GaitError
@@ -18,8 +18,6 @@ from exo_pin.gait.curves import runs
 from exo_pin.kinematics import events, poses
 from exo_pin.kinematics.resting_stance import travel
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 LARGEST = 3.0
 """Scale beyond which it is another walk."""
@@ -184,7 +182,7 @@ def _swings(robot: Robot, gait: Gait, above: Array) -> dict[str, list[tuple[floa
     return swings
 
 
-def _off_ground(time: Array, off: npt.NDArray[np.bool_]) -> list[tuple[float, float]]:
+def _off_ground(time: Array, off: Mask) -> list[tuple[float, float]]:
     """Spans of time in which a foot is off the ground, short ones left out."""
     spans = ((float(time[a]), float(time[b - 1])) for a, b in runs(off))
     return [(a, b) for a, b in spans if b - a > SHORTEST]

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 _CHAIN = ("pelvis", "thigh", "shank", "sole_plate", "toe_plate")
 """The links with a shape, from the pelvis outwards: neighbours may touch, only hip or ankle is between."""

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Mask
 from exo_pin.demand import ROUNDING, JointDemand
 from exo_pin.devices import SLIDES
 from exo_pin.feasible.collision import Nearest
@@ -18,9 +18,6 @@ from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.gait.phases import PHASES, percent
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 FASTEST = 10.0
 """Cadences are sought up to this factor."""

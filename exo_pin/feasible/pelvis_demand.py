@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.demand import JointDemand
 from exo_pin.devices import SLIDES
 from exo_pin.gait import Gait
@@ -13,7 +13,6 @@ from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 TURN = "pelvis_turn"
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from exo_pin import files
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.tables.notes import MOST_EVENTS, Notes, to_gait
@@ -135,7 +136,7 @@ def _header(data: bytes) -> _Header:
     return _Header(tuple(shape), bool(fortran), np.dtype(dtype), start)
 
 
-def _numbers(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> NDArray[np.float64]:
+def _numbers(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> Array:
     if arrays[name].dtype.kind not in "fiu":
         raise FormatError(path, f"array {name!r} holds no numbers")
     return arrays[name].astype(np.float64)

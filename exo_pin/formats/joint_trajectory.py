@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.files import read_text, write_text
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.tables import pelvis_notes
 from exo_pin.formats.tables.notes import Note, Notes, read, split, to_gait, to_lines
-from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait import Gait
 from exo_pin.safe.yaml_reader import load_yaml
 

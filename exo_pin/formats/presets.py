@@ -6,9 +6,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
 ONE_SIDED = 0.9
@@ -119,7 +119,7 @@ def preset(name: str, known: tuple[str, ...] = tuple(PRESETS)) -> Preset:
     return PRESETS[name]
 
 
-def inferred(knees: NDArray[np.float64]) -> tuple[Preset, float] | None:
+def inferred(knees: Array) -> tuple[Preset, float] | None:
     """Find the OpenSim preset whose knee sign makes `(n, 2)` knee angles [rad] those of a walk.
 
     Returns:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats.c3d import reader
 from exo_pin.formats.opensim.coordinates import KNEES, LEGS
@@ -15,7 +16,7 @@ from exo_pin.formats.opensim.storage import read_storage
 from exo_pin.formats.presets import OPENSIM, preset
 from exo_pin.formats.tables.csv_table import read_csv
 from exo_pin.formats.tables.notes import read
-from exo_pin.formats.tables.numeric_table import Array, Table
+from exo_pin.formats.tables.numeric_table import Table
 from exo_pin.gait.torques import Torques
 
 UNIT = "_torque_nm"

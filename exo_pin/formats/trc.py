@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_lines
-from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait.trial import Markers, unique
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}

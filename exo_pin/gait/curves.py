@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from exo_pin.arrays import Array, Mask
 
 
 def derivative(time: Array, y: Array, order: int, period: float | None) -> Array:
@@ -26,7 +25,7 @@ def derivative(time: Array, y: Array, order: int, period: float | None) -> Array
     return _differences(time, y, order) if period is None else _spectral(y, order, period)
 
 
-def runs(marked: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def runs(marked: Mask) -> list[tuple[int, int]]:
     """First sample of each run of True in `(n,)`, and the one after its last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
     return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]

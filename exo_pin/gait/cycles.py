@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
 from exo_pin.gait.event import EVENT_KINDS, Event
@@ -17,8 +17,6 @@ from exo_pin.gait.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.validation import read_only
-
-Array = NDArray[np.float64]
 
 POINTS = 101
 """0, 1, ... 100 % of the cycle."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError, UnknownNameError
 
 EVENT_KINDS = ("heel_strike", "toe_off")
@@ -54,9 +54,7 @@ def between(times: Sequence[float], start: float, end: float) -> Sequence[float]
     return times[bisect_right(times, start) : bisect_left(times, end)]
 
 
-def stance(
-    time: NDArray[np.float64], events: Sequence[Event], side: str, *, duration: float, periodic: bool
-) -> NDArray[np.bool_]:
+def stance(time: Array, events: Sequence[Event], side: str, *, duration: float, periodic: bool) -> Mask:
     """Whether a foot is on the ground: from its heel strike until its toe-off.
 
     Args:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.validation import check_time, frozen
-
-Array = NDArray[np.float64]
 
 SOURCE = "Zeni 2008"
 SMALLEST_EXCURSION = 0.05

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.curves import runs
 from exo_pin.gait.validation import check_time, frozen
-
-Array = NDArray[np.float64]
 
 SOURCE = "force plate"
 THRESHOLD = 20.0

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import curves, rigid
 from exo_pin.gait.event import Event, stance
@@ -22,8 +23,6 @@ from exo_pin.gait.validation import (
     frozen,
     read_only,
 )
-
-Array = NDArray[np.float64]
 
 MOST_SAMPLES = 1_000_000
 """Of a walk that is sampled anew: hours; bounds memory."""
@@ -211,7 +210,7 @@ class Gait:
         events = (replace(event, time=start + f * (event.time - start)) for event in self.events)
         return replace(self, time=start + f * (self.time - start), events=tuple(events))
 
-    def stance(self, side: str) -> NDArray[np.bool_]:
+    def stance(self, side: str) -> Mask:
         """`(n,)` whether the foot is on the ground, from the events: heel strike until toe-off.
 
         Raises:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import MOVEMENTS, Body
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import schwartz2008_sd as spread
 from exo_pin.gait.event import Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
-
-Array = NDArray[np.float64]
 
 SPEEDS = tuple(ANGLES)
 """`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""

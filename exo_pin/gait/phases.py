@@ -5,12 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array, Mask
 from exo_pin.gait.gait import Gait
-
-Array = npt.NDArray[np.float64]
-Mask = npt.NDArray[np.bool_]
 
 PHASES = {
     "loading response": (0.0, 12.0),

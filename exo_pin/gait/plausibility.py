@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
-
-Array = NDArray[np.float64]
 
 BACKWARDS = np.radians(-10.0)
 """No healthy knee is straighter than this for long [rad]; recordings hyperextend by up to 5 degrees."""

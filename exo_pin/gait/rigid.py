@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from exo_pin.arrays import Array
 
 ORTHONORMAL = 1e-6
 """Largest entry of R^T R - I that still counts as a rotation: seven digits, what files carry."""

@@ -7,15 +7,14 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event, between
 from exo_pin.gait.strides import ROUNDING, Stride
 from exo_pin.gait.validation import check_time, frozen
-
-Array = NDArray[np.float64]
 
 FLAT = (0.2, 0.5)
 """Part of the stance in which the foot rests on the ground: after the heel's roll, before it lifts."""

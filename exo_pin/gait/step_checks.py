@@ -7,12 +7,10 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait.event import EVENT_KINDS, Event, between
-
-Array = NDArray[np.float64]
 
 APART = 0.15
 """The other foot strikes at least this part of the stride after and before this one: limps reach 0.3."""

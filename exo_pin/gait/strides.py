@@ -7,13 +7,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.gait.event import between
 from exo_pin.gait.gait import Gait
-
-Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
 """Of times, as a part of the walk's duration."""

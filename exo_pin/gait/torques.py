@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.validation import check_time, frozen
-
-Array = NDArray[np.float64]
 
 LARGEST = 3000.0
 """No joint of a leg bears more [N m]; a larger number is nearly always N mm taken for N m."""

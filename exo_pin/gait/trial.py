@@ -7,13 +7,12 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_time, frozen
-
-Array = NDArray[np.float64]
 
 UPS = ("+x", "+y", "+z", "-x", "-y", "-z")
 """What can be up in a laboratory."""

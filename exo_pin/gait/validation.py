@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import rigid
 from exo_pin.gait.event import Event
-
-Array = NDArray[np.float64]
 
 LARGEST_ANGLE = np.pi
 """No joint of a leg turns further [rad]; a larger number is nearly always degrees taken for radians."""

@@ -8,15 +8,13 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.events import SOURCE, candidates, check_apart, check_turns
 from exo_pin.gait.step_checks import Feet, Step, agreed, in_the_air, steps_of
-
-Array = NDArray[np.float64]
 
 NEAR = 1.5
 """Events of a broken stride at an end belong to the walk if they lie within this many strides of it."""

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, FEET
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.ground import stance
 from exo_pin.ground.support import WHO, Support, support
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
@@ -34,7 +34,7 @@ def from_events(gait: Gait) -> Intervals | None:
     return {side: _between(gait, side) for side in SIDES}
 
 
-def estimated(gait: Gait, heights: Mapping[str, NDArray[np.float64]]) -> Intervals:
+def estimated(gait: Gait, heights: Mapping[str, Array]) -> Intervals:
     """Stance guessed from heights: the lower foot stands, and the other if it is nearly as low.
 
     Args:
@@ -45,13 +45,13 @@ def estimated(gait: Gait, heights: Mapping[str, NDArray[np.float64]]) -> Interva
     return {side: _runs(gait, heights[side] <= lowest + NEAR_GROUND) for side in SIDES}
 
 
-def lowest_corners(positions: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+def lowest_corners(positions: Array) -> dict[str, Array]:
     """Side -> `(n,)` lowest height, from the positions `(n, 8, 3)` of `CORNERS` [m]."""
     mine = {side: [k for k, name in enumerate(CORNERS) if name.startswith(side)] for side in SIDES}
     return {side: positions[:, mine[side], 2].min(axis=1) for side in SIDES}
 
 
-def samples(intervals: Intervals, side: str, time: NDArray[np.float64]) -> NDArray[np.bool_]:
+def samples(intervals: Intervals, side: str, time: Array) -> Mask:
     """`(n,)` whether the side stands at times [s] after the gait's first sample."""
     inside = np.zeros(len(time), dtype=bool)
     moment = time + ON_A_SAMPLE  # an event that is meant to lie on a sample may miss it by rounding
@@ -71,6 +71,6 @@ def _between(gait: Gait, side: str) -> tuple[tuple[float, float], ...]:
     return tuple((a, b) for a, b in spans if b > a)
 
 
-def _runs(gait: Gait, standing: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+def _runs(gait: Gait, standing: Mask) -> tuple[tuple[float, float], ...]:
     time = np.r_[gait.time - gait.time[0], gait.duration]
     return tuple((float(time[a]), float(time[b])) for a, b in runs(standing))

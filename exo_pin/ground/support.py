@@ -12,15 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.ground.stance import Intervals, lowest_corners, samples
-
-Array = NDArray[np.float64]
 
 SOFTNESS = 0.003
 """Height difference [m] over which the weight goes from one corner to the next: bounds the sinking."""

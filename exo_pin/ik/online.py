@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.least_squares.single_sample import descend
 from exo_pin.ik.leg.scalar import Formula, formula
@@ -23,7 +24,6 @@ from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import AXES, Leg, leg
 
 asarray, forward = np.asarray, pin.framesForwardKinematics  # looked up once: this is the inner loop
-Array = npt.NDArray[np.float64]
 
 
 class Online:
@@ -186,7 +186,7 @@ def _formula(own: Leg) -> Formula | None:
     return None if exact is None else formula(exact, own.lower, own.upper)
 
 
-def _together(columns: npt.NDArray[np.int64]) -> slice | npt.NDArray[np.int64]:
+def _together(columns: Index) -> slice | Index:
     """A slice where the joints stand side by side: quicker to write to."""
     first = int(columns[0])
     beside = bool((np.diff(columns) == 1).all())

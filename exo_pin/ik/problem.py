@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.subtree import Limb, limbs
 from exo_pin.ik.targets import Goal, Target, check, pose_array
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 _LIMBS: weakref.WeakKeyDictionary[Robot, dict[object, list[Limb]]] = weakref.WeakKeyDictionary()
 
 

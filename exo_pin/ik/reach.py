@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.leg.forward import Matrix, Number, components, mix
 from exo_pin.ik.targets import CHUNK, Goal
 from exo_pin.robot.leg_axes import Leg
-
-Array = npt.NDArray[np.float64]
 
 
 def slack(leg: Leg, R: Matrix, p: list[Number]) -> Array:

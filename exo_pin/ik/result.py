@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array, Index, Mask
+
 AT_LIMIT = 1e-9
 """A joint this close to its limit lies on it [rad]: rounding only."""
 
@@ -36,8 +37,8 @@ class Track:
     q: Array
     position_error: Array
     rotation_error: Array
-    iterations: npt.NDArray[np.int64]
-    converged: npt.NDArray[np.bool_]
+    iterations: Index
+    converged: Mask
     reach_slack: Array
     solver: npt.NDArray[np.int8]
     solvers: tuple[str, ...]
@@ -53,7 +54,7 @@ class Track:
         return len(self.q)
 
     @cached_property
-    def active_limits(self) -> npt.NDArray[np.bool_]:
+    def active_limits(self) -> Mask:
         """Which joints lie on a limit (n, nq)."""
         return (self.q - self.lower <= AT_LIMIT) | (self.upper - self.q <= AT_LIMIT)
 
@@ -99,6 +100,6 @@ class Solution:
     rotation_error: Array
     iterations: int
     converged: bool
-    active_limits: npt.NDArray[np.bool_]
+    active_limits: Mask
     reach_slack: Array
     solver: str

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.result import Track
 
-Array = npt.NDArray[np.float64]
 SOLVED_BY = ("closed_form", "dls")
 """What may have answered a sample; the later one counts where legs differ."""
 
@@ -29,7 +29,7 @@ class Sheet:
 
     q: Array
     errors: Array
-    steps: npt.NDArray[np.int64]
+    steps: Index
     solver: npt.NDArray[np.int8]
     slack: Array
 

@@ -17,7 +17,6 @@ from exo_pin.ik.solvers import auto, closed, descend
 from exo_pin.ik.targets import Points, Pose, Position, Target
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 Solver = Callable[[Problem, Any], Track]
 
 SOLVERS: dict[type, Solver] = {Auto: auto, ClosedForm: closed, Dls: descend}

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.least_squares.sequential import follow
@@ -23,7 +22,6 @@ from exo_pin.ik.subtree import Limb
 from exo_pin.ik.subtree_arrays import branches
 from exo_pin.robot.leg_axes import Leg, leg
 
-Array = npt.NDArray[np.float64]
 NEARLY = 0.2
 """Axes this near to an ideal leg's [m, sine] lend their closed form as a seed."""
 _IDEALS: weakref.WeakKeyDictionary[Leg, dict[float, IdealLeg | None]] = weakref.WeakKeyDictionary()

@@ -6,14 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array, Index
 from exo_pin.ik.targets import Goal
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
-Rows = npt.NDArray[np.int64]
 AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 _SKEW = np.array([pin.skew(axis).ravel() for axis in np.eye(3)])
 """Takes vectors (m, 3) to their cross-product matrices (m, 9)."""
@@ -36,7 +34,7 @@ class Limb:
     model: Any
     frames: tuple[str, ...]
     ids: tuple[int, ...]
-    q: Rows
+    q: Index
     lower: Array
     upper: Array
     floats: bool

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array, Mask
 from exo_pin.ik.subtree import Limb
 
-Array = npt.NDArray[np.float64]
-Bools = npt.NDArray[np.bool_]
 _KNOWN: weakref.WeakKeyDictionary[Limb, Branches | None] = weakref.WeakKeyDictionary()
 
 
@@ -37,10 +35,10 @@ class Branches:
 
     axes: Array
     points: Array
-    turns: Bools
+    turns: Mask
     parents: tuple[int, ...]
     carriers: tuple[int, ...]
-    moves: Bools
+    moves: Mask
     frames: Array
 
 

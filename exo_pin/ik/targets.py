@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 ORTHONORMAL = 1e-6
 """Largest `deviation` from a pose that passes as rounding; what passes is straightened."""
 _EXACT = 1e-13  # a rotation this good needs no straightening
@@ -86,7 +86,7 @@ class Goal:
     weight: Array
     rotation_weight: float
 
-    def only(self, samples: npt.NDArray[np.int64]) -> Goal:
+    def only(self, samples: Index) -> Goal:
         """The goal at some of its samples."""
         R = None if self.R is None else self.R[samples]
         return replace(self, p=self.p[samples], R=R, weight=self.weight[samples])

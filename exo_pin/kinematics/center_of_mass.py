@@ -8,10 +8,9 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.kinematics.motion import moved, rates, samples
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 
 class CenterOfMass(NamedTuple):

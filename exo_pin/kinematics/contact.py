@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.step_checks import Feet
@@ -16,8 +17,6 @@ from exo_pin.gait.strides import strides, turns_of
 from exo_pin.gait.walking_bouts import walking
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 TOUCH = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
@@ -44,8 +43,8 @@ class Contacts(NamedTuple):
     corners: tuple[str, ...]
     position: Array
     height: Array
-    touching: npt.NDArray[np.bool_]
-    feet: npt.NDArray[np.bool_]
+    touching: Mask
+    feet: Mask
 
 
 def contacts(

@@ -15,10 +15,10 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
 

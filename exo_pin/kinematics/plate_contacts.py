@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait, force_plates
 from exo_pin.gait.event import EVENT_KINDS
@@ -23,7 +23,6 @@ from exo_pin.robot import Robot
 if TYPE_CHECKING:  # the formats are many files, and only a name is needed
     from exo_pin.formats import Plate
 
-Array = npt.NDArray[np.float64]
 
 NEAR = 0.3
 """A foot whose sole is further from the force than this [m] is not the one on the plate."""

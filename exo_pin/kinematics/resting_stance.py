@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array
 
 
 def stand(time: Array, base: Array, *, periodic: bool) -> Array:

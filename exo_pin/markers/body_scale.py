@@ -6,14 +6,12 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES, Body
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.markers.marker_sets import MarkerSet
-
-Array = NDArray[np.float64]
 
 THIGH = 0.245 / (0.245 + 0.246)
 """Thigh in hip to ankle, Drillis & Contini 1966 (in Winter)."""

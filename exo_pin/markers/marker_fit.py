@@ -7,18 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin import ik
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.plausibility import RANGES
 from exo_pin.kinematics import poses
 from exo_pin.markers.body_scale import Placement, Sizes, body_of, placement, rigid_fit
 from exo_pin.markers.marker_sets import MarkerSet
 from exo_pin.robot import Robot, load_robot
-
-Array = NDArray[np.float64]
 
 ROUNDS = 2
 """Times that sizes and places are learnt from the poses and the poses solved again."""

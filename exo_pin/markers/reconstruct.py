@@ -9,10 +9,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin import signals
 from exo_pin.anatomy import Body
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, load_markers
 from exo_pin.gait import Gait
@@ -21,8 +21,6 @@ from exo_pin.markers.body_scale import Placement, body_of, first_sizes
 from exo_pin.markers.marker_fit import few, learnt, solved
 from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
 from exo_pin.robot import Robot
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

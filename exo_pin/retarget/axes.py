@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.gait.rigid import about
-
-Array = npt.NDArray[np.float64]
 
 FLAT = 0.1
 """Three axes whose triple product is smaller than this lie nearly in a plane: they do not make a hip."""

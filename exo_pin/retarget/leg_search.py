@@ -6,14 +6,12 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.retarget.axes import direction, named
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 FEWEST = 3
 """A leg that walks has at least so many joints: two of the hip and a knee."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.examples import located
 from exo_pin.files import read_text
@@ -19,8 +19,6 @@ from exo_pin.retarget.axes import direction
 from exo_pin.retarget.robot_legs import RobotLeg, robot_leg
 from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf
-
-Array = npt.NDArray[np.float64]
 
 PI = repr(math.pi)
 

@@ -8,17 +8,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import Body
+from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.retarget.machine import Machine
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 REACHED = 1e-5
 """A foot further away than this [m, rad] is missed."""
@@ -86,7 +84,7 @@ class Retargeted:
         return self._errors(self.copied)
 
     @property
-    def missed(self) -> npt.NDArray[np.bool_]:
+    def missed(self) -> Mask:
         """Which feet (n, 2) were not reached; legs of fewer than six joints answer for the place alone."""
         place, turn = self.errors
         whole = [leg.whole for leg in self.machine.legs]

@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import nearest_point
-
-Array = npt.NDArray[np.float64]
 
 HIP = ("hip_adduction", "hip_flexion", "hip_rotation")
 """Movement of a hip joint by the coordinate that its axis is nearest to."""

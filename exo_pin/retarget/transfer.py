@@ -11,10 +11,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
@@ -24,8 +24,6 @@ from exo_pin.retarget.retargeted import Retargeted
 from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot, load_robot, load_urdf
-
-Array = npt.NDArray[np.float64]
 
 Walker = str | Path | Target | Robot | Machine
 

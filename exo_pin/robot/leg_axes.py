@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array, Index
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
 AXES = 6
 _LEGS: weakref.WeakKeyDictionary[Robot, dict[str, Leg | None]] = weakref.WeakKeyDictionary()
 
@@ -33,7 +32,7 @@ class Leg:
     """
 
     frame: str
-    columns: npt.NDArray[np.int64]
+    columns: Index
     axes: Array
     points: Array
     tip: Array

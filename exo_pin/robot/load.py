@@ -12,11 +12,10 @@ import pinocchio as pin
 
 from exo_pin import description, devices
 from exo_pin.anatomy import Body
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.robot import urdf_parser
 from exo_pin.robot.model import Robot
-
-Array = npt.NDArray[np.float64]
 
 
 def load_robot(

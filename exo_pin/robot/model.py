@@ -15,11 +15,11 @@ import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip import reorder
+from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
 
-Array = npt.NDArray[np.float64]
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _HIPS = HIP_ORDERS["clinical"]
 
@@ -131,7 +131,7 @@ class Robot:
             )
         return q[..., self.nq - len(self.joints) :]
 
-    def outside(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> npt.NDArray[np.bool_]:
+    def outside(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> Mask:
         """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
         angles = self.angles(q)
         return np.asarray(~((angles >= self.lower - tolerance) & (angles <= self.upper + tolerance)))

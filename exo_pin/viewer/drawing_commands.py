@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from exo_pin.arrays import Array
+
 Command = dict[str, Any]
 """One meshcat command: `type`, `path` and what belongs to the type."""
 
-Array = NDArray[np.float64]
 
 _SEGMENTS = 40
 _ARRAYS = {

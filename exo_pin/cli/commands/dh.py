@@ -8,13 +8,11 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.cli import options
 from exo_pin.dh import Row, ends, table
-
-Array = npt.NDArray[np.float64]
 
 _EXAMPLES = """examples:
   exo-pin dh                                 as Markdown

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.gait import Event
 
 WORDS = {
@@ -31,7 +31,7 @@ SIDED = re.compile(r"(?P<side>left|right|l|r) ?(?P<rest>.+)")
 
 
 def foot_events(
-    minutes_seconds: NDArray[np.float64],
+    minutes_seconds: Array,
     labels: Iterable[str],
     contexts: Iterable[str],
     span: tuple[float, float],

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_bytes
 from exo_pin.formats.c3d import byte_order, header, number_formats
@@ -22,7 +23,6 @@ from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.tables.notes import Notes, to_gait
-from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.trial import Markers, Plate, to_z_up, unique

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes, write_bytes
 from exo_pin.formats.c3d.foot_contacts import WORDS
 from exo_pin.formats.c3d.reader import PELVIS, PIG, angle_of
-from exo_pin.formats.tables.numeric_table import Array
 from exo_pin.gait import Gait
 from exo_pin.signals import EVEN, ROUNDED
 

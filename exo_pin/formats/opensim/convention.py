@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.formats.opensim.osim_joint import Array, Joint
+from exo_pin.formats.opensim.osim_joint import Joint
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
 from exo_pin.formats.opensim.pelvis_axes import TURNS, usual, zxy
 from exo_pin.formats.presets import OPENSIM, PRESETS, Point

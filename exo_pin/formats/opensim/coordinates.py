@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats.opensim.convention import Convention, by_habit, by_model, habit_of, hip_angles
 from exo_pin.formats.opensim.pelvis_axes import from_opensim, to_opensim
@@ -17,7 +18,7 @@ from exo_pin.formats.opensim.storage import Storage, read_storage, write_storage
 from exo_pin.formats.presets import OPENSIM, PRESETS, Preset, inferred, preset
 from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.tables.notes import Notes, read, to_gait, to_lines
-from exo_pin.formats.tables.numeric_table import Array, Table
+from exo_pin.formats.tables.numeric_table import Table
 from exo_pin.gait import Gait
 
 TIME = "time"

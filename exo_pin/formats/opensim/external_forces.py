@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.pelvis_axes import OURS
 from exo_pin.formats.opensim.storage import read_storage
-from exo_pin.formats.tables.numeric_table import Array, Table
+from exo_pin.formats.tables.numeric_table import Table
 from exo_pin.gait.trial import Plate
 
 FORCE = re.compile(

@@ -10,8 +10,9 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
-from exo_pin.formats.opensim.osim_joint import Array, Axis, Joint, Vector, X, Y, Z, offset
+from exo_pin.formats.opensim.osim_joint import Axis, Joint, Vector, X, Y, Z, offset
 from exo_pin.safe.xml_reader import load_xml
 
 GROUND = "ground"

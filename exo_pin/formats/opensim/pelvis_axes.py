@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array
 from exo_pin.formats.opensim.osim_joint import Axis, Joint, X, Y, Z
-
-Array = NDArray[np.float64]
 
 OURS = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
 """Takes a vector's OpenSim coordinates to ours."""

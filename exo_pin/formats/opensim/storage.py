@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_lines, write_text
 from exo_pin.formats.tables.notes import Note, split
-from exo_pin.formats.tables.numeric_table import Array, Table, parse, rows_of_text
+from exo_pin.formats.tables.numeric_table import Table, parse, rows_of_text
 
 LONGEST_HEADER = 10_000
 """Lines; a header is a dozen."""

@@ -6,10 +6,11 @@ import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_lines, write_text
 from exo_pin.formats.tables.notes import Note, Notes, split, to_lines
-from exo_pin.formats.tables.numeric_table import Array, Table, missing, parse, rows_of_text
+from exo_pin.formats.tables.numeric_table import Table, missing, parse, rows_of_text
 
 MAPPING = "its column = our joint, --map COLUMN=JOINT"
 """How a table of others is read."""

@@ -11,12 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.files import read_lines
 from exo_pin.formats.presets import preset
 from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.tables.notes import Notes, to_gait
-from exo_pin.formats.tables.numeric_table import Array, Table, parse, refuse_length
+from exo_pin.formats.tables.numeric_table import Table, parse, refuse_length
 from exo_pin.gait import Gait
 from exo_pin.signals import GAP, filled, longest_run
 

@@ -7,13 +7,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.gait import Event, Gait
-
-Array = NDArray[np.float64]
 
 MOST_EVENTS = 100_000
 """A day's walk: bounds memory."""

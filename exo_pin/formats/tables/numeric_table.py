@@ -8,11 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError
-
-Array = NDArray[np.float64]
 
 MOST_ROWS = 2_000_000
 """Of a table: five hours at 100 Hz; bounds memory (a walk of this size takes 1.2 GB)."""
@@ -38,7 +36,7 @@ class Table:
         """`(n, k)` values of the named columns, in that order."""
         return self.values[:, [self.names.index(name) for name in names]]
 
-    def refuse(self, bad: NDArray[np.bool_], names: Sequence[str], why: str) -> None:
+    def refuse(self, bad: Mask, names: Sequence[str], why: str) -> None:
         """Raise `FormatError` for the first cell where `bad (n, k)` holds; `names` are its k columns."""
         if bad.any():
             row, k = np.argwhere(bad)[0]

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.tables.notes import Note
 from exo_pin.formats.tables.numeric_table import Table
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
-
-Array = NDArray[np.float64]
 
 KEY = "pelvis"
 """`# pelvis: x y z qw qx qy qz` [m, unit quaternion], a line for every point."""

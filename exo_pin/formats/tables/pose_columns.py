@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.formats.tables.numeric_table import Table
-
-Array = NDArray[np.float64]
 
 UNIT = 1e-6
 """How far a quaternion's length may lie from 1: six decimals, what careful files carry."""

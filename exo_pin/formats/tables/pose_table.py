@@ -8,17 +8,16 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats.tables.csv_table import read_csv, write_csv
 from exo_pin.formats.tables.notes import Notes, read
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_events, check_poses, check_time, frozen
-
-Array = NDArray[np.float64]
 
 TIME = "time_s"
 PELVIS = "pelvis"

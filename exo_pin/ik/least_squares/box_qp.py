@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array
+
 _ROUNDS = 30  # each round fixes or frees joints; a leg of six needs two or three
 
 

@@ -20,13 +20,11 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares.leg_kernel import turn
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.subtree_arrays import Branches, Pose, motion, times
 from exo_pin.ik.targets import Goal
-
-Array = npt.NDArray[np.float64]
-Rows = npt.NDArray[np.int64]
 
 
 class Pull(NamedTuple):
@@ -46,11 +44,11 @@ class Pull(NamedTuple):
     rest: Array
     errors: Array
 
-    def where(self, better: npt.NDArray[np.bool_], other: Pull) -> Pull:
+    def where(self, better: Mask, other: Pull) -> Pull:
         """The other's samples where they are better."""
         return Pull(*(np.where(better, new, old) for old, new in zip(self, other, strict=True)))
 
-    def only(self, stay: Rows) -> Pull:
+    def only(self, stay: Index) -> Pull:
         """Some of the samples."""
         return Pull(*(values[..., stay] for values in self))
 
@@ -64,7 +62,7 @@ class Aim(NamedTuple):
     R: Array | None
     rotation_weight: float
 
-    def only(self, stay: Rows) -> Aim:
+    def only(self, stay: Index) -> Aim:
         """Some of the samples."""
         R = None if self.R is None else self.R[..., stay]
         return self._replace(p=self.p[..., stay], weight=self.weight[..., stay], R=R)
@@ -108,7 +106,7 @@ def pull(limb: Branches, aimed: list[Aim], q: Array) -> Pull:
     return total
 
 
-def _add_points(total: Pull, limb: Branches, now: Pose, aim: Aim, f: int, own: Rows, spin: Array) -> None:
+def _add_points(total: Pull, limb: Branches, now: Pose, aim: Aim, f: int, own: Index, spin: Array) -> None:
     x = np.einsum("abm,bk->akm", now.R[f], aim.local) + now.p[f][:, None]
     e = aim.p - x
     distance = np.sqrt((e * e).sum(axis=0))
@@ -132,7 +130,7 @@ def _add_points(total: Pull, limb: Branches, now: Pose, aim: Aim, f: int, own: R
     total.rest[square] -= _mirrored(_dots(spin, bent))
 
 
-def _add_rotation(total: Pull, R: Array, aim: Aim, f: int, own: Rows, spin: Array) -> None:
+def _add_rotation(total: Pull, R: Array, aim: Aim, f: int, own: Index, spin: Array) -> None:
     assert aim.R is not None
     t = turn([list(row) for row in R], [list(row) for row in aim.R])
     angle = np.sqrt((t * t).sum(axis=0))

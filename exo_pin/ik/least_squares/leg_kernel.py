@@ -11,16 +11,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares import normal_equations
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.leg.forward import Matrix, Number, components, motion
 from exo_pin.ik.settings import Dls
 from exo_pin.robot.leg_axes import Leg
 
-Array = npt.NDArray[np.float64]
-Bools = npt.NDArray[np.bool_]
 CHUNK = 6000
 KNEE = 3
 KICK = 0.1
@@ -36,18 +34,18 @@ class Batch:
 
     q: Array
     errors: Array
-    steps: npt.NDArray[np.int64]
+    steps: Index
 
-    def reached(self, tolerance: float) -> Bools:
+    def reached(self, tolerance: float) -> Mask:
         """Which samples are within the tolerance; NaN is not."""
         return np.asarray((self.errors <= tolerance).all(axis=0))
 
-    def take(self, where: npt.NDArray[np.int64], better: Batch) -> None:
+    def take(self, where: Index, better: Batch) -> None:
         """Replace some samples by better ones, adding up the steps."""
         self.q[:, where], self.errors[:, where] = better.q, better.errors
 
 
-def answers(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls, *, reachable: Bools) -> Batch:
+def answers(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls, *, reachable: Mask) -> Batch:
     """Joint angles from the seeds (6, m); samples that got stuck are started again elsewhere.
 
     Args:
@@ -104,7 +102,7 @@ def _descend(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls) -> Batch:
 class _Pool:
     """Samples under way: who they are, where they stand, error, Jacobian, cost, factor of the damping."""
 
-    who: npt.NDArray[np.int64]
+    who: Index
     goal: _Goal
     q: Array
     e: Array
@@ -112,7 +110,7 @@ class _Pool:
     errors: Array
     cost: Array
     factor: Array
-    steps: npt.NDArray[np.int64]
+    steps: Index
 
     @classmethod
     def of(cls, leg: Leg, R: Array, p: Array, out: Batch, part: slice, settings: Dls) -> _Pool:
@@ -122,12 +120,12 @@ class _Pool:
         e, J, errors = goal.residual(leg, q, settings)
         return cls(who, goal, q, e, J, errors, _square(e), np.ones(len(who)), np.zeros_like(who))
 
-    def ended(self, settings: Dls) -> Bools:
+    def ended(self, settings: Dls) -> Mask:
         """Which samples have arrived, do not move any more, or have used up their steps."""
         arrived = (self.errors <= settings.tolerance).all(axis=0)
         return np.asarray(arrived | (self.factor == np.inf) | (self.steps >= settings.max_iterations))
 
-    def leave(self, out: Batch, ended: Bools) -> None:
+    def leave(self, out: Batch, ended: Mask) -> None:
         """Hand over the samples that have ended."""
         who = self.who[ended]
         out.q[:, who], out.errors[:, who] = self.q[:, ended], self.errors[:, ended]
@@ -173,7 +171,7 @@ class _Goal:
     R: Matrix
     p: list[Number]
 
-    def only(self, stay: npt.NDArray[np.int64]) -> _Goal:
+    def only(self, stay: Index) -> _Goal:
         """Some of the samples."""
         R: Matrix = [[np.asarray(x)[stay] for x in row] for row in self.R]
         return _Goal(R, [np.asarray(x)[stay] for x in self.p])
@@ -220,7 +218,7 @@ def turn(R: Matrix, S: Matrix) -> Array:
     return v
 
 
-def _half_turns(R: Matrix, S: Matrix, where: npt.NDArray[np.int64]) -> Array:
+def _half_turns(R: Matrix, S: Matrix, where: Index) -> Array:
     """Rotation vectors near half a turn, where the skew part of the rotation vanishes."""
     import pinocchio as pin  # rare: a sample at a time is good enough
 

@@ -7,9 +7,9 @@ L D L^T without pivoting, safe because the damping makes every A positive defini
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array, Mask
+
 _ROUNDING = 1e-12  # of a pivot against its diagonal
 _ROUNDS = 30  # rounds of fixing and freeing joints; what is unfinished is cut to the box and damped next
 
@@ -40,7 +40,7 @@ def solved(A: Array, g: Array) -> Array:
     return x
 
 
-def definite(A: Array) -> npt.NDArray[np.bool_]:
+def definite(A: Array) -> Mask:
     """Which of the symmetric matrices (k, k, m) are positive definite by more than rounding (m,)."""
     size = len(A)
     B, least = A.copy(), _ROUNDING * A[range(size), range(size)]
@@ -89,7 +89,7 @@ def _inside(A: Array, g: Array, lower: Array, upper: Array) -> Array:
     return x
 
 
-def _held_solution(A: Array, g: Array, x: Array, held: npt.NDArray[np.bool_]) -> Array:
+def _held_solution(A: Array, g: Array, x: Array, held: Mask) -> Array:
     """The minimiser over the free joints, the held ones where they are."""
     free = ~held
     rest = np.where(held, x, g - _times(A, np.where(held, x, 0.0)))

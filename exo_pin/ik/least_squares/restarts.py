@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from exo_pin.arrays import Array
 
 
 def starts(middle: Array, lower: Array, upper: Array, count: int) -> Iterator[Array]:

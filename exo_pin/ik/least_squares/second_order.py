@@ -8,14 +8,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arrays import Array
 from exo_pin.ik.least_squares.cost import bow
 from exo_pin.ik.subtree import AXES, Limb
 from exo_pin.ik.targets import Goal
-
-Array = npt.NDArray[np.float64]
 
 
 def bend(limb: Limb, data: Any, goals: list[Goal], k: int, scale: tuple[float, float]) -> Array:

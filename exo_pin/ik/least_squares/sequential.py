@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array, Mask
 from exo_pin.ik.least_squares.single_sample import best_try, descend
 from exo_pin.ik.least_squares.step_limit import pace
 from exo_pin.ik.problem import Problem
@@ -14,8 +14,6 @@ from exo_pin.ik.subtree import Limb, narrowed
 from exo_pin.ik.subtree_arrays import branches
 from exo_pin.ik.targets import Goal
 from exo_pin.robot.leg_axes import leg
-
-Array = npt.NDArray[np.float64]
 
 
 def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
@@ -42,7 +40,7 @@ def follow(task: Problem, limb: Limb, settings: Dls, sheet: Sheet) -> None:
     sheet.solver[:] = SOLVED_BY.index("dls")
 
 
-def reachable(task: Problem, limb: Limb, sheet: Sheet) -> npt.NDArray[np.bool_]:
+def reachable(task: Problem, limb: Limb, sheet: Sheet) -> Mask:
     """The samples (n,) that another start may bring to their targets."""
     goals, places = task.goals_of(limb), task.places_of(limb)
     legs = [leg(task.robot, name) for name in limb.frames]

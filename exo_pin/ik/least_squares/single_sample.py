@@ -13,8 +13,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.least_squares.box_qp import box_step
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.least_squares.second_order import bend, definite
@@ -22,7 +22,6 @@ from exo_pin.ik.settings import Dls
 from exo_pin.ik.subtree import Limb, residual
 from exo_pin.ik.targets import Goal
 
-Array = npt.NDArray[np.float64]
 _FLOOR = 1e-13  # keeps the normal equations definite at a singular pose
 _STUCK = 1e-10  # a step this small changes nothing any more [rad, m]
 _STILL = 1e-7  # the same where the answer is a compromise with noise

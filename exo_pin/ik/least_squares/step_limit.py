@@ -8,12 +8,11 @@ is missed goes at most `HASTE` times as fast as it would have to if it followed 
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.subtree_arrays import Branches
 from exo_pin.ik.targets import Goal
 
-Array = npt.NDArray[np.float64]
 HASTE = 2.0
 """Room for joints that share the work; with 1, compromises near a straight knee come late."""
 ARM = 0.05

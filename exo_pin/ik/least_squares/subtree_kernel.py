@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares import normal_equations
 from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
 from exo_pin.ik.least_squares.restarts import starts
@@ -26,8 +26,6 @@ from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import CHUNK, Goal, Target
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
-Bools = npt.NDArray[np.bool_]
 SETTLED = Dls(tolerance=1e-10)
 """Settings of a compromise: no target is expected to be met."""
 _FLOOR = 1e-12  # keeps the equations definite where a joint moves nothing
@@ -43,13 +41,13 @@ class Answers:
     q: Array
     errors: Array
     cost: Array
-    steps: npt.NDArray[np.int64]
+    steps: Index
 
-    def reached(self, tolerance: float) -> Bools:
+    def reached(self, tolerance: float) -> Mask:
         """Which samples meet all that is asked within the tolerance (m,)."""
         return np.asarray(np.nanmax(self.errors, axis=(0, 1)) <= tolerance)
 
-    def take(self, where: npt.NDArray[np.int64], other: Answers, good: Bools) -> None:
+    def take(self, where: Index, other: Answers, good: Mask) -> None:
         """Replace samples by the other's good ones, adding up the steps."""
         self.steps[where] += other.steps
         for name in ("q", "errors", "cost"):
@@ -144,14 +142,14 @@ def descend(
 class _Pool:
     """Samples under way: who they are, what they aim at, where they stand, factor of the damping."""
 
-    who: npt.NDArray[np.int64]
+    who: Index
     aimed: list[Aim]
     low: Array
     high: Array
     q: Array
     now: Pull
     factor: Array
-    steps: npt.NDArray[np.int64]
+    steps: Index
 
     @classmethod
     def of(
@@ -162,12 +160,12 @@ class _Pool:
         now = pull(limb, aimed, q)
         return cls(who, aimed, low[:, part], high[:, part], q, now, np.ones(len(who)), np.zeros_like(who))
 
-    def ended(self, settings: Dls) -> Bools:
+    def ended(self, settings: Dls) -> Mask:
         """Which samples have arrived, do not move any more, or have used up their steps."""
         arrived = np.nanmax(self.now.errors, axis=(0, 1)) <= settings.tolerance
         return np.asarray(arrived | (self.factor == np.inf) | (self.steps >= settings.max_iterations))
 
-    def leave(self, out: Answers, ended: Bools) -> None:
+    def leave(self, out: Answers, ended: Mask) -> None:
         """Hand over the samples that have ended."""
         who = self.who[ended]
         out.q[:, who], out.errors[..., who] = self.q[:, ended], self.now.errors[..., ended]
@@ -197,7 +195,7 @@ class _Pool:
         self.factor[(size < _STUCK) | ((size < _ROUNDED) & ~better)] = np.inf
 
 
-def curvature(now: Pull, damping: Array, free: Bools) -> Array:
+def curvature(now: Pull, damping: Array, free: Mask) -> Array:
     """The damped second derivative (J, J, m) over the free joints; where it is indefinite, Gauss-Newton's.
 
     A joint that is pressed against its limit is left where it is (projected Newton, Bertsekas 1982): what

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
 from exo_pin.ik.least_squares.subtree_kernel import SETTLED, curvature
 from exo_pin.ik.problem import problem
@@ -22,9 +22,6 @@ from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import Target
 from exo_pin.robot import Robot
 
-Array = npt.NDArray[np.float64]
-Bools = npt.NDArray[np.bool_]
-Rows = npt.NDArray[np.int64]
 _PRICES = (30.0, 3e4)
 """What the square of an excess costs [m^2/rad^2], one after the other; the last leaves about 1e-5 rad."""
 _FEW = 40  # samples that are settled without a coarser motion first
@@ -159,7 +156,7 @@ def _pulled(excess: Array, n: int) -> Array:
     return np.asarray(whole - np.roll(whole, 1, axis=1))
 
 
-def _banded(A: Array) -> tuple[Rows, Array]:
+def _banded(A: Array) -> tuple[Index, Array]:
     """Where each sample stands in the equations of all (m,), and the blocks A (J, J, m) as a lower band.
 
     Samples are numbered from both ends inwards, so that a closed cycle has a band of two blocks as well.
@@ -174,7 +171,7 @@ def _banded(A: Array) -> tuple[Rows, Array]:
     return place, band
 
 
-def _coupled(place: Rows, band: Array, g: Array, stiff: Array, free: Bools) -> Array:
+def _coupled(place: Index, band: Array, g: Array, stiff: Array, free: Mask) -> Array:
     """X (J, m) of the equations of all samples, with springs `stiff` between free neighbours added."""
     from scipy.linalg import solveh_banded
 

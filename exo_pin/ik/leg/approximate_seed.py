@@ -8,14 +8,13 @@ and 10 mm; damped least squares does the rest.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.leg.forward import Matrix, Number
 from exo_pin.robot.leg_axes import Leg
 
-Array = npt.NDArray[np.float64]
 ROUNDS = 4
 BENT = 0.06
 """The knee starts bent by this at least [rad]: from a straight leg the iteration would only creep."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.least_squares import leg_kernel
 from exo_pin.ik.leg import approximate_seed as start
 from exo_pin.ik.leg import closed_form, forward, scalar
@@ -18,7 +18,6 @@ from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
 from exo_pin.robot.leg_axes import Leg
 
-Array = npt.NDArray[np.float64]
 FEW = 13
 """Up to so many samples plain `math` is quicker than arrays."""
 ROUNDING, ROUGH = 1e-13, 1e-6

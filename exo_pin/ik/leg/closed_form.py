@@ -14,12 +14,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.leg.forward import Matrix, Number, mix, times, transposed
 
-Array = npt.NDArray[np.float64]
 _TURN = 2.0 * np.pi
 STRAIGHT = 1.0 - 1e-13
 """A knee whose cosine is above this is straight: the rounding of the target would bend it by 1e-7 rad, which

@@ -12,11 +12,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.robot.leg_axes import Leg
 
-Array = npt.NDArray[np.float64]
 STRAIGHT = 1e-9
 """How exactly axes must meet [m] or be parallel or at right angles [sine]."""
 _EASY = math.radians(80.0)  # below this the arc sine of a hip angle is as exact as the arc tangent

@@ -9,11 +9,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.robot.leg_axes import Leg
 
-Array = npt.NDArray[np.float64]
 Number = Array | float
 Matrix = list[list[Number]]
 _ZERO = 1e-15  # an entry of a constant this small is rounding of zero (lengths in m, unit vectors)

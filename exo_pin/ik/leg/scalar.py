@@ -11,14 +11,13 @@ from collections.abc import Callable, Sequence
 from math import acos, asin, atan, atan2, copysign, sqrt
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.ik.leg import closed_form
 from exo_pin.ik.leg.closed_form import STRAIGHT
 from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.leg.forward import Matrix
 
-Array = npt.NDArray[np.float64]
 Angles = tuple[float, float, float, float, float, float]
 Formula = Callable[[Sequence[float]], Angles]
 _FORMULAS: weakref.WeakKeyDictionary[IdealLeg, Formula] = weakref.WeakKeyDictionary()

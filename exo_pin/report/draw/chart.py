@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array
 from exo_pin.report.draw import legend, svg
 from exo_pin.report.draw.chart_axis import extent, label, ticks
-
-Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40.0, 14.0, 26.0, 34.0
 _MOST_POINTS = 2000  # of one curve: five for every pixel

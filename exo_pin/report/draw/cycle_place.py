@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait, strides
 from exo_pin.report.draw import panels, svg
 from exo_pin.report.draw.chart import Span
 from exo_pin.report.draw.leg_cycles import legs
-
-Array = npt.NDArray[np.float64]
 
 POINTS = 101
 """0, 1, ... 100 % of the cycle."""

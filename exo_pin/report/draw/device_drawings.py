@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
 from exo_pin.kinematics.resting_stance import travel
@@ -16,8 +16,6 @@ from exo_pin.report.draw import palette, panels, skeleton, svg
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.report.draw.cycle_place import place
-
-Array = npt.NDArray[np.float64]
 
 TOGETHER = "Devices whose curves lie on each other are drawn once, under all their names."
 _SAME = {"mm": 0.05, "deg": 0.05}  # curves nearer than this to each other are drawn as one

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart_axis import extent, label, ticks
-
-Array = npt.NDArray[np.float64]
 
 _LETTER = 6.1  # mean width of a letter at 11 px
 _LONGEST = 44  # letters of a row's heading

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, cycles
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,11 +6,9 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.report.draw.chart import Curve
-
-Array = npt.NDArray[np.float64]
 
 COLOURS = (
     "#2975c7",

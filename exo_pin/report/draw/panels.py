@@ -6,15 +6,13 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import MOVEMENTS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, Span, draw
-
-Array = npt.NDArray[np.float64]
 
 LIMIT = "#7a3fb0"
 """The colour of a limit: neither leg's."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
@@ -16,8 +16,6 @@ from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 AXES = {"x": "#d9822b", "y": "#2e8b57", "z": "#6a4fb3"}
 _AZIMUTH, _ELEVATION = np.radians(38.0), np.radians(16.0)
@@ -102,7 +100,7 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     return Drawing("fig5_poses", chart.title, draw(chart)), note
 
 
-def moments(gait: Gait) -> tuple[npt.NDArray[np.int64], str]:
+def moments(gait: Gait) -> tuple[Index, str]:
     """Rows at 0, 10 .. 90 % of the first cycle of a foot, or of all without one; and which it is."""
     start, span, what = float(gait.time[0]), gait.duration, "a recording without a whole cycle"
     found = [] if gait.periodic else [each for side in SIDES for each in strides(gait, side) if not each.why]
@@ -114,7 +112,7 @@ def moments(gait: Gait) -> tuple[npt.NDArray[np.int64], str]:
     return np.asarray(np.abs(gait.time[:, None] - times).argmin(axis=0)), what
 
 
-def _advance(robot: Robot, gait: Gait, rows: npt.NDArray[np.int64]) -> tuple[Array, str]:
+def _advance(robot: Robot, gait: Gait, rows: Index) -> tuple[Array, str]:
     """How far forward (10,) [m] each pose is moved, and why."""
     times: Array = gait.time[rows] - gait.time[rows[0]]
     apart: Array = 0.45 * np.arange(float(_POSES))

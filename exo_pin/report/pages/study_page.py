@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.gait import SPEEDS
 from exo_pin.gait.phases import PHASES
 from exo_pin.report.document.blocks import Block, Document, Drawing, Figure, Section, Table, Tiles, Words
@@ -15,8 +15,6 @@ from exo_pin.report.draw.chart import Chart, draw
 from exo_pin.report.draw.heat import heat, strips
 from exo_pin.study import Row, summary
 from exo_pin.study.study_table import phase_column
-
-Array = npt.NDArray[np.float64]
 
 USUAL = 1.75
 """Speeds are compared at the stature nearest to this [m]."""

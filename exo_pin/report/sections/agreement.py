@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.crosscheck import BENT_KNEE, FK_TOLERANCE, IK_TOLERANCE, Check
 from exo_pin.gait import Gait
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
@@ -63,7 +63,7 @@ def inverse(gait: Gait, verdict: Check) -> Section:
     return Section("Inverse kinematics", (Words(words), Figure((drawing,), columns=1), table))
 
 
-def _spare(slack: npt.NDArray[np.float64]) -> str:
+def _spare(slack: Array) -> str:
     """The least of it in millimetres; a leg without a driven knee has none."""
     known = slack[np.isfinite(slack)]
     return f"{1e3 * float(known.min()):.1f}" if len(known) else "-"

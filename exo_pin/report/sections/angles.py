@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait, normative_gait, normative_sd
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Words
 from exo_pin.report.draw import panels, svg
 from exo_pin.report.draw.chart import Band, Chart, Curve, Level, Span, draw
 from exo_pin.report.draw.leg_cycles import Leg, legs
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 BAND_SOURCE = (
     "Schwartz 2008, {speed}: mean and 1 standard deviation of 51 to 82 children a speed; ankle inversion: "

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
-
 from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
@@ -13,8 +11,6 @@ from exo_pin.report.draw import panels, skeleton, svg
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 
 def paths(robot: Robot, gait: Gait, forward: str) -> Section:

@@ -6,10 +6,10 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
@@ -17,8 +17,6 @@ from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 MOST = 30
 """Corrections that are shown at most."""

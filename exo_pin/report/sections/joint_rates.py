@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import signals
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, curves
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 _EXACT = 1e-6  # [s] off an even grid: rounding
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Table
 from exo_pin.report.draw import panels
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 
 def mass(robot: Robot, gait: Gait) -> Section:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from exo_pin import crosscheck, ik
 from exo_pin.anatomy import FEET, JOINTS, MOVEMENTS
+from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
-
-Array = npt.NDArray[np.float64]
 
 NOISES = (1e-3, 3e-3, 5e-3)
 """Standard deviation of the noise of each coordinate of a foot [m]."""
@@ -38,7 +36,7 @@ class Answer:
     given: Array
     q: Array
     track: ik.Track
-    within: npt.NDArray[np.bool_]
+    within: Mask
 
     @property
     def error(self) -> Array:

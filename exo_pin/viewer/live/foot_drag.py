@@ -7,14 +7,12 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from exo_pin import ik
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot, load_urdf
 from exo_pin.viewer.live.messages import Wish
-
-Array = NDArray[np.float64]
 
 TURN = 0.1
 """What a rotation error of 1 rad counts in metres: about what it moves the sole's points (a choice)."""

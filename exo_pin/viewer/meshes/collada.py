@@ -8,14 +8,12 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Index
 from exo_pin.gait.rigid import about
 from exo_pin.viewer.meshes.solids import Color
 
-Array = NDArray[np.float64]
-Faces = NDArray[np.int64]
-Triangles = tuple[Array, Faces, Color | None]
+Triangles = tuple[Array, Index, Color | None]
 
 DEEPEST = 50
 """Nodes of a scene that are nested deeper are refused: a real one has a handful."""
@@ -77,7 +75,7 @@ class _Document:
                 symbol = str(primitive.get("material"))
                 yield vertices @ T[:3, :3].T + T[:3, 3], faces, self.color(looks.get(symbol, symbol))
 
-    def primitive(self, primitive: ET.Element) -> tuple[Array, Faces]:
+    def primitive(self, primitive: ET.Element) -> tuple[Array, Index]:
         inputs = {str(i.get("semantic")): i for i in primitive.findall("input")}
         width = 1 + max(int(i.get("offset", "0")) for i in inputs.values())
         vertex = inputs["VERTEX"]
@@ -114,7 +112,7 @@ class _Document:
         return red, green, blue, 1.0
 
 
-def _fans(ring: Faces, sizes: Faces) -> Faces:
+def _fans(ring: Index, sizes: Index) -> Index:
     """Polygons, their corners one after the other, as fans of triangles."""
     if sizes.sum() != len(ring) or (sizes < 0).any():
         raise ValueError("its polygons have other numbers of corners than they say")

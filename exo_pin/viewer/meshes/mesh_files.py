@@ -13,14 +13,11 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes
 from exo_pin.viewer.meshes.solids import Color
-
-Array = NDArray[np.float64]
-Faces = NDArray[np.int64]
 
 _BINARY = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEAD = 84  # bytes of a binary STL before its triangles, their number at the end
@@ -38,7 +35,7 @@ class Part:
     """
 
     vertices: Array
-    faces: Faces
+    faces: Index
     color: Color | None = None
     y_up: bool = False
 
@@ -121,7 +118,7 @@ def _welded(corners: Array) -> Part:
     return Part(corners[first], index.reshape(-1, 3).astype(np.int64))
 
 
-def _used(vertices: Array, faces: Faces, color: Color | None, y_up: bool) -> Part:
+def _used(vertices: Array, faces: Index, color: Color | None, y_up: bool) -> Part:
     """Without the vertices that no face uses."""
     kept, index = np.unique(faces, return_inverse=True)
     return Part(vertices[kept], index.reshape(-1, 3).astype(np.int64), color, y_up)

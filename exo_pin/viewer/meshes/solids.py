@@ -12,11 +12,11 @@ from functools import cache
 from itertools import product
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from exo_pin.arrays import Array, Index
 from exo_pin.viewer.drawing_commands import translation
 
-Array = NDArray[np.float64]
 Color = tuple[float, float, float, float]
 """Red, green, blue and opacity, each from 0 to 1."""
 
@@ -32,7 +32,7 @@ class Solid:
     """Triangles: vertices `(v, 3)` [m], faces `(f, 3)` seen from outside, normals `(v, 3)`."""
 
     vertices: Array
-    faces: NDArray[np.int64]
+    faces: Index
     normals: Array
 
     def placed(self, T: Array) -> Solid:
@@ -123,7 +123,7 @@ Numbers = dict[tuple[tuple[int, ...], int], int]
 
 
 @cache
-def _box_pattern() -> tuple[Array, Array, NDArray[np.int64]]:
+def _box_pattern() -> tuple[Array, Array, Index]:
     """What all boxes share: the corners' signs, the normals, the faces."""
     number: Numbers = {(signs, axis): 0 for signs in product((-1, 1), repeat=3) for axis in range(3)}
     number = {key: k for k, key in enumerate(number)}
@@ -153,7 +153,7 @@ def _box_corners(number: Numbers) -> Iterable[list[int]]:
         yield [number[signs, axis] for axis in range(3)]
 
 
-def _triangles(vertices: Array, polygons: Iterable[list[int]]) -> NDArray[np.int64]:
+def _triangles(vertices: Array, polygons: Iterable[list[int]]) -> Index:
     """Convex polygons around the origin as triangles, turned so that they are seen from outside."""
     faces = []
     for polygon in polygons:

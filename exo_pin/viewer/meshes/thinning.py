@@ -5,15 +5,12 @@ from __future__ import annotations
 import heapq
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Index
 from exo_pin.viewer.meshes.solids import Solid
 
-Array = NDArray[np.float64]
-Faces = NDArray[np.int64]
-
 CREASE = np.cos(np.radians(38.0))
-"""Faces that meet at a sharper angle show an edge (a choice)."""
+"""Index that meet at a sharper angle show an edge (a choice)."""
 
 STIFF = 1e-3
 """Directions in which a cell's planes say less than this share of the most are left at the mean."""
@@ -62,7 +59,7 @@ def _distances(points: Array, start: Array, end: Array) -> Array:
     return out
 
 
-def thinned(vertices: Array, faces: Faces, cell: float) -> tuple[Array, Faces]:
+def thinned(vertices: Array, faces: Index, cell: float) -> tuple[Array, Index]:
     """Vertices of the same cell of a grid become one, where the planes of their faces meet best.
 
     Lindstrom 2000, Out-of-core simplification of large polygonal models: flat walls stay flat and edges
@@ -85,7 +82,7 @@ def thinned(vertices: Array, faces: Faces, cell: float) -> tuple[Array, Faces]:
     return _pulled(mean, vertices, faces, corners, cell), np.unique(corners[kept], axis=0)
 
 
-def shaded(vertices: Array, faces: Faces) -> Solid:
+def shaded(vertices: Array, faces: Index) -> Solid:
     """A solid with normals: at each corner the mean of the faces around that turn less than a crease."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     area = np.cross(b - a, c - a)
@@ -107,7 +104,7 @@ def shaded(vertices: Array, faces: Faces) -> Solid:
     return _joined(vertices, faces, normals / np.maximum(long, 1e-30))
 
 
-def _pulled(mean: Array, vertices: Array, faces: Faces, corners: Faces, cell: float) -> Array:
+def _pulled(mean: Array, vertices: Array, faces: Index, corners: Index, cell: float) -> Array:
     """The means moved to where the planes of the faces at each cell meet best, within the cell."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     n = np.cross(b - a, c - a) / cell**2
@@ -125,7 +122,7 @@ def _pulled(mean: Array, vertices: Array, faces: Faces, corners: Faces, cell: fl
     return np.asarray(mean + np.where(np.abs(step).max(axis=1, keepdims=True) <= cell, step, 0.0))
 
 
-def _joined(vertices: Array, faces: Faces, normals: Array) -> Solid:
+def _joined(vertices: Array, faces: Index, normals: Array) -> Solid:
     """Corners with the same place and (rounded) normal become one vertex."""
     rounded = np.round(normals * 127).astype(np.int64) + 128
     key = ((faces.ravel() * 256 + rounded[:, 0]) * 256 + rounded[:, 1]) * 256 + rounded[:, 2]

@@ -7,13 +7,11 @@ import re
 import xml.etree.ElementTree as ET
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.solids import Solid
-
-Array = NDArray[np.float64]
 
 
 def pose(origin: ET.Element | None) -> Array:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import about
 from exo_pin.ground.placement import Motion, motion
@@ -17,8 +17,6 @@ from exo_pin.viewer.drawing_commands import Command, Material
 from exo_pin.viewer.scene.link_nodes import Linkage, linkage
 from exo_pin.viewer.scene.scene import Chain, Group
 from exo_pin.viewer.scene.toes import toes
-
-Array = NDArray[np.float64]
 
 GHOST = Material((0.36, 0.30, 0.55, 0.30), 0.6, 0.0, more=(("depthWrite", False),))
 """A second motion is a translucent violet: neither leg's colour."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.ground.placement import moved
 from exo_pin.kinematics import poses
@@ -13,8 +12,6 @@ from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
 from exo_pin.viewer.scene.link_nodes import GREY, Linkage, linkage
 from exo_pin.viewer.scene.soles import Sole
-
-Array = NDArray[np.float64]
 
 PLATE = 0.02
 """Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy import FEET
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
 from exo_pin.ground.placement import Motion
@@ -24,8 +25,6 @@ from exo_pin.viewer.scene.play import Play
 from exo_pin.viewer.scene.scene import Facts, Group, Marks, Scene
 from exo_pin.viewer.scene.walker import walker
 from exo_pin.viewer.scene.world import ROOT, boxes, world
-
-Array = NDArray[np.float64]
 
 _ASKEW = radians(15)  # a smaller heading is left as recorded: the cameras forgive it
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 from difflib import SequenceMatcher
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.gait import Gait
 from exo_pin.ground.placement import Motion, moved, stood
@@ -23,8 +22,6 @@ from exo_pin.viewer.scene.play import Play
 from exo_pin.viewer.scene.scene import Chain, Grip, Group
 from exo_pin.viewer.scene.soles import Sole, soles
 from exo_pin.viewer.scene.world import ROOT, Mount
-
-Array = NDArray[np.float64]
 
 HEADROOM = 0.06
 """The picture reaches so far above the robot's highest point [m]."""

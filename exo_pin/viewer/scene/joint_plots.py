@@ -9,14 +9,12 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques, curves
 from exo_pin.robot import Robot
 from exo_pin.viewer.scene.scene import Plot, PlotGroup, Series
-
-Array = NDArray[np.float64]
 
 FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
 """The plots at the top: the sagittal plane; the others follow in the robot's order."""

@@ -13,15 +13,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.errors import DescriptionError
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place
 from exo_pin.viewer.meshes import solids, urdf_elements
 from exo_pin.viewer.meshes.solids import Solid
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
-
-Array = NDArray[np.float64]
 
 FINISHES = {
     "aluminium": (0.32, 0.55),

@@ -9,14 +9,13 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import ExoPinError
 from exo_pin.examples import located
 from exo_pin.viewer.meshes import mesh_files
 from exo_pin.viewer.meshes.solids import Solid
 
-Array = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
 GRAIN = 0.045
@@ -40,7 +39,7 @@ def scaled(solid: Solid, scale: Triple) -> Solid:
     return smooth(solid.vertices * np.array(scale), solid.faces)
 
 
-def smooth(vertices: Array, faces: NDArray[np.int64]) -> Solid:
+def smooth(vertices: Array, faces: Index) -> Solid:
     """A solid whose normals are the mean of the faces around each vertex."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     area = np.cross(b - a, c - a)
@@ -50,7 +49,7 @@ def smooth(vertices: Array, faces: NDArray[np.int64]) -> Solid:
 
 
 @cache
-def _thinned(name: str) -> tuple[Array, NDArray[np.int64]]:
+def _thinned(name: str) -> tuple[Array, Index]:
     """A mesh with its vertices clustered: smooth to look at, a tenth of the size."""
     (mesh,) = mesh_files.read(_folder() / f"{name}_mesh.STL")
     corners = mesh.vertices[mesh.faces].reshape(-1, 3)[:, [0, 2, 1]] * (1, -1, 1)  # the figure has y up

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exo_pin.arrays import Array, Index
 from exo_pin.viewer.drawing_commands import (
     Command,
     Material,
@@ -22,8 +22,6 @@ from exo_pin.viewer.drawing_commands import (
     translation,
 )
 from exo_pin.viewer.scene.scene import Belt
-
-Array = NDArray[np.float64]
 
 LEFT, RIGHT = (0.82, 0.24, 0.29), (0.16, 0.46, 0.78)
 SIDE_COLORS = {"left": LEFT, "right": RIGHT}
@@ -158,7 +156,7 @@ def trace(path: str, points: Array, color: tuple[float, float, float], *, closed
     return draw(path, mesh(vertices, faces, normals), Material((*color, 0.95), 0.5, 0.0, glow=0.4))
 
 
-def tube(points: Array, radius: float, *, closed: bool) -> tuple[Array, NDArray[np.int64], Array]:
+def tube(points: Array, radius: float, *, closed: bool) -> tuple[Array, Index, Array]:
     """Triangles of a tube around a polyline: vertices, faces, normals."""
     before = np.roll(points, 1, axis=0) if closed else np.vstack([points[:1], points[:-1]])
     after = np.roll(points, -1, axis=0) if closed else np.vstack([points[1:], points[-1:]])

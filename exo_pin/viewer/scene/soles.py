@@ -6,15 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import Body, Leg
+from exo_pin.arrays import Array
 from exo_pin.kinematics import poses
 from exo_pin.retarget import Machine
 from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.viewer.meshes.solids import Solid
-
-Array = NDArray[np.float64]
 
 THICK = 0.03
 """What lies less than this share of the leg above the lowest point belongs to the sole."""

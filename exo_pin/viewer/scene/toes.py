@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import SIDES, Body
+from exo_pin.arrays import Array
 from exo_pin.devices import TOES
 from exo_pin.ground.placement import Motion
 from exo_pin.ground.stance import lowest_corners
-
-Array = NDArray[np.float64]
 
 
 def toes(body: Body, shown: Motion) -> dict[str, Array]:

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import JOINTS, SIDES, Body, Leg
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.viewer.drawing_commands import Command, mesh, place, translation, translucent
 from exo_pin.viewer.meshes import solids
@@ -23,8 +23,6 @@ from exo_pin.viewer.scene.actor import Actor
 from exo_pin.viewer.scene.link_nodes import Turn
 from exo_pin.viewer.scene.person_figure import part, scaled
 from exo_pin.viewer.scene.scene import Chain, Group
-
-Array = NDArray[np.float64]
 
 SKIN = (0.80, 0.62, 0.50, 0.45)
 """Colour and opacity."""

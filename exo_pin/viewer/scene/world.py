@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.ground.placement import Motion
 from exo_pin.robot import Robot
@@ -17,8 +17,6 @@ from exo_pin.viewer.meshes.thinning import polyline
 from exo_pin.viewer.scene import props
 from exo_pin.viewer.scene.link_nodes import Linkage
 from exo_pin.viewer.scene.scene import Box, Marks
-
-Array = NDArray[np.float64]
 
 ROOT = "/exo_pin"
 """Every node of ours hangs below this one."""
