@@ -6,6 +6,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from exo_pin.version import __version__ as __version__
+
 if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin import anatomy as anatomy
     from exo_pin import compare as compare
@@ -48,8 +50,6 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin.robot import load_robot as load_robot
     from exo_pin.robot import load_urdf as load_urdf
     from exo_pin.viewer import view as view
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "exo_pin": "anatomy compare crosscheck description devices dh edit feasible formats gait ik kinematics "

@@ -15,7 +15,7 @@ import numpy as np
 
 from exo_pin import cache, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
-from exo_pin.anatomy.inertia import Part, link_inertias
+from exo_pin.anatomy.inertia import Inertial, link_inertias
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
@@ -135,7 +135,7 @@ def _by_xacro(values: tuple[tuple[str, str], ...], name: str) -> str:
     return '<?xml version="1.0"?>\n' + "\n".join(lines) + "\n"
 
 
-def _inertial(link: str, part: Part) -> dict[str, str]:
+def _inertial(link: str, part: Inertial) -> dict[str, str]:
     upper = part.inertia[np.triu_indices(3)]  # ixx ixy ixz iyy iyz izz
     return {
         f"{link}_link_mass": _rounded(part.mass),

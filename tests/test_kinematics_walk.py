@@ -9,7 +9,7 @@ import pytest
 
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.errors import FormatError, GaitError
-from exo_pin.formats import Plate, load_forces, load_gait, load_markers
+from exo_pin.formats import ForcePlate, load_forces, load_gait, load_markers
 from exo_pin.gait import Gait, force_plates, normative_gait
 from exo_pin.kinematics import events, plate_events, poses, spatiotemporal, with_plates
 from exo_pin.robot import load_robot
@@ -60,7 +60,7 @@ def plate_under(robot, walk, k, times_on):
     point = np.stack([np.interp(t, walk.time, foot[:, axis]) for axis in range(3)], axis=1)
     force = np.zeros((len(t), 3))
     force[(t > times_on[0]) & (t < times_on[1]), 2] = 700
-    return Plate("force plate 1", t, force, point, np.zeros((len(t), 3)))
+    return ForcePlate("force plate 1", t, force, point, np.zeros((len(t), 3)))
 
 
 @pytest.mark.parametrize(("k", "side"), [(0, "left"), (1, "right")])

@@ -47,5 +47,6 @@ def test_replay_s_help_does_not_load_the_viewer():
 
 
 def test_the_version_is_that_of_the_project():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    assert project["version"] == exo_pin.__version__
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert project["tool"]["hatch"]["version"]["path"] == "exo_pin/version.py"
+    assert f"version: {exo_pin.__version__}\n" in (ROOT / "CITATION.cff").read_text()

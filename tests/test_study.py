@@ -161,7 +161,7 @@ def test_the_table_of_another_study_is_not_touched(tmp_path, done, other):
 def test_another_version_s_rows_are_not_mixed_in(tmp_path, done, monkeypatch):
     path = tmp_path / "s.csv"
     path.write_bytes(done[1].read_bytes())
-    monkeypatch.setattr("exo_pin.__version__", "99.0")
+    monkeypatch.setattr("exo_pin.version.__version__", "99.0")
     with pytest.raises(DescriptionError, match=r"another exo_pin \(0\.1\.0"):
         study.run(plan(), path)
     fresh = study.run(plan(("slow",), devices=("hk4",)), path, restart=True)
@@ -179,7 +179,7 @@ def test_rows_of_other_code_are_not_mixed_in(tmp_path, done, monkeypatch):
 
 def test_a_worker_of_another_version_computes_nothing(monkeypatch):
     cases = plan(("slow",))
-    monkeypatch.setattr("exo_pin.__version__", "99.0")
+    monkeypatch.setattr("exo_pin.version.__version__", "99.0")
     result = study.run(cases)
     assert result.rows == ()
     assert result.failures == {"slow": "slow: the worker has exo_pin 99.0"}

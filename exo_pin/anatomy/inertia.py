@@ -1,8 +1,8 @@
 """Mass, centre of mass and inertia of every link: the wearer's segments and the device's hardware.
 
-Link names are those of the URDF. A link's inertia is the sum of its parts, each a `Part` placed in the link's
-frame (x forward, y left, z up at q = 0; origin at the link's joint), brought together by the parallel-axis
-theorem.
+Link names are those of the URDF. A link's inertia is the sum of its parts, each an `Inertial` placed in the
+link's frame (x forward, y left, z up at q = 0; origin at the link's joint), brought together by the
+parallel-axis theorem.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from exo_pin.anatomy.names import SIDES
 from exo_pin.arrays import Array
 
 
-class Part(NamedTuple):
+class Inertial(NamedTuple):
     """A rigid part of a link.
 
     Attributes:
@@ -32,7 +32,7 @@ class Part(NamedTuple):
     inertia: Array
 
 
-def total(parts: Iterable[Part]) -> Part:
+def total(parts: Iterable[Inertial]) -> Inertial:
     """The parts as one body (parallel-axis theorem)."""
     parts = list(parts)
     mass = sum(part.mass for part in parts)
@@ -41,10 +41,10 @@ def total(parts: Iterable[Part]) -> Part:
     for part in parts:
         d = part.centre - centre
         inertia += part.inertia + part.mass * (d @ d * np.eye(3) - np.outer(d, d))
-    return Part(mass, centre, inertia)
+    return Inertial(mass, centre, inertia)
 
 
-def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Part]:
+def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Inertial]:
     """Mass, centre and inertia of each link by link name: pelvis, then six links a leg.
 
     Args:
@@ -64,7 +64,7 @@ def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Part]:
     return links
 
 
-def _plates(body: Body, leg: Leg) -> tuple[Part, Part]:
+def _plates(body: Body, leg: Leg) -> tuple[Inertial, Inertial]:
     """The foot plate cut at the ball: behind it, seen from the ankle; in front of it, seen from the ball."""
     share, toe = (leg.heel + leg.ball) / leg.foot_length, leg.foot_length - leg.heel - leg.ball
     height = 0.006 - leg.ankle_height
@@ -77,7 +77,7 @@ def _plates(body: Body, leg: Leg) -> tuple[Part, Part]:
     return back, front
 
 
-def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Part]]:
+def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Inertial]]:
     """Parts of a leg's links; `s` is +1 on the left. The hardware runs beside the leg, at the waist ring."""
     y = s * ((body.waist_width - body.hip_width) / 2 + 0.015)
     wearer = _wearer_leg(body, leg) if body.wearer else {}
@@ -96,7 +96,7 @@ def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Part]]:
     return {name: [part, *wearer.get(name, [])] for name, part in hardware.items()}
 
 
-def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Part]]:
+def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Inertial]]:
     table = anthropometry.DE_LEVA[body.sex]
     along = table["foot"].centre * leg.foot_length - leg.heel
     foot = _segment("foot", body.sex, leg.foot_mass, leg.foot_length, (along, 0.0, -leg.ankle_height / 2))
@@ -110,7 +110,7 @@ def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Part]]:
     }
 
 
-def _upper_body(body: Body) -> list[Part]:
+def _upper_body(body: Body) -> list[Inertial]:
     """Head, trunk and hanging arms above the hips, scaled to the mass that the legs leave."""
     if not body.wearer:
         return []
@@ -129,18 +129,18 @@ def _upper_body(body: Body) -> list[Part]:
     return [_segment(n, body.sex, scale * table[n].mass, size[n], (0.0, y, z)) for n, y, z in places]
 
 
-def _waist(body: Body) -> Part:
+def _waist(body: Body) -> Inertial:
     """Waist ring and bracket as a box behind and around the body."""
     return _box(body.pelvis_hardware, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
 
 
-def _segment(name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]) -> Part:
+def _segment(name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]) -> Inertial:
     """A segment of de Leva's table: principal inertias mass * (radius of gyration * length)^2."""
     radii = np.array(anthropometry.DE_LEVA[sex][name].gyration) * length
-    return Part(mass, np.array(centre), np.diag(mass * radii**2))
+    return Inertial(mass, np.array(centre), np.diag(mass * radii**2))
 
 
-def _box(mass: float, centre: tuple[float, float, float], size: tuple[float, float, float]) -> Part:
+def _box(mass: float, centre: tuple[float, float, float], size: tuple[float, float, float]) -> Inertial:
     """A solid box: I_xx = m (y^2 + z^2) / 12 and so on."""
     squares = np.array(size) ** 2
-    return Part(mass, np.array(centre), np.diag(mass / 12 * (squares.sum() - squares)))
+    return Inertial(mass, np.array(centre), np.diag(mass / 12 * (squares.sum() - squares)))

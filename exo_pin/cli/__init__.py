@@ -9,8 +9,8 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from exo_pin import __version__
 from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError
+from exo_pin.version import __version__
 
 COMMANDS = {
     "replay": "watch the exoskeleton walk in the browser, or write one offline page",

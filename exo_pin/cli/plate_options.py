@@ -10,7 +10,7 @@ from exo_pin.errors import FormatError, GaitError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
-    from exo_pin.formats import Plate
+    from exo_pin.formats import ForcePlate
     from exo_pin.gait import Gait
 
 
@@ -51,7 +51,7 @@ def struck(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
         return walk  # its plates say nothing of these feet
 
 
-def _plates(path: Path) -> tuple[Plate, ...]:
+def _plates(path: Path) -> tuple[ForcePlate, ...]:
     from exo_pin.formats import load_forces, load_markers
 
     return load_markers(path).plates if path.suffix.lower() == ".c3d" else load_forces(path)

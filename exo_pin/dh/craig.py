@@ -14,7 +14,7 @@ from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
 
-class Row(NamedTuple):
+class DHRow(NamedTuple):
     """A row of Craig's table: angles in rad, lengths in m; theta = q + offset."""
 
     joint: str
@@ -69,7 +69,7 @@ _TABLES: dict[tuple[str, str], tuple[tuple[int, str, int, str], ...]] = {
 """alpha_{i-1} [deg], a_{i-1}, theta offset [deg], d of each row; lengths by the name of a leg's size."""
 
 
-def table(body: Body, side: str, *, hip_order: str = "clinical") -> list[Row]:
+def table(body: Body, side: str, *, hip_order: str = "clinical") -> list[DHRow]:
     """Craig's modified D-H table of one leg of this body; frame 0 lies at the hip centre.
 
     Raises:
@@ -79,7 +79,7 @@ def table(body: Body, side: str, *, hip_order: str = "clinical") -> list[Row]:
     lengths = {"": 0.0, "thigh": leg.thigh, "-thigh": -leg.thigh, "shank": leg.shank}
     rows = zip(chain(hip_order), _TABLES[hip_order, side], strict=True)
     return [
-        Row(f"{side}_{movement}", math.radians(alpha), lengths[a], math.radians(offset), lengths[d])
+        DHRow(f"{side}_{movement}", math.radians(alpha), lengths[a], math.radians(offset), lengths[d])
         for movement, (alpha, a, offset, d) in rows
     ]
 
@@ -114,7 +114,7 @@ def _base(body: Body, side: str, hip_order: str) -> Array:
     return T
 
 
-def _product(body: Body, side: str, rows: list[Row], q: Array, hip_order: str) -> list[Array]:
+def _product(body: Body, side: str, rows: list[DHRow], q: Array, hip_order: str) -> list[Array]:
     """Poses of the D-H frames 1 to 6 in the pelvis."""
     T = _base(body, side, hip_order)
     poses = []
@@ -124,7 +124,7 @@ def _product(body: Body, side: str, rows: list[Row], q: Array, hip_order: str) -
     return poses
 
 
-def _craig(row: Row, angle: Array) -> Array:
+def _craig(row: DHRow, angle: Array) -> Array:
     """Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d), Craig, Introduction to Robotics, Eq. (3.6)."""
     theta = angle + row.offset
     ca, sa, ct, st = math.cos(row.alpha), math.sin(row.alpha), np.cos(theta), np.sin(theta)

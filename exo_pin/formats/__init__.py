@@ -20,15 +20,15 @@ from exo_pin.formats.tables import gait_csv
 from exo_pin.formats.tables.pose_table import Poses, load_poses, save_poses
 from exo_pin.formats.torque_files import load_torques
 from exo_pin.gait import Gait
-from exo_pin.gait.trial import Markers, Plate
+from exo_pin.gait.trial import ForcePlate, Markers
 
 __all__ = [
     "FORMATS",
     "MARKER_FORMATS",
     "PRESETS",
+    "ForcePlate",
     "Format",
     "Markers",
-    "Plate",
     "Poses",
     "Reading",
     "is_markers",

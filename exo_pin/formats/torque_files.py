@@ -16,7 +16,7 @@ from exo_pin.formats.opensim.storage import read_storage
 from exo_pin.formats.presets import OPENSIM, preset
 from exo_pin.formats.tables.csv_table import read_csv
 from exo_pin.formats.tables.notes import read
-from exo_pin.formats.tables.numeric_table import Table
+from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.gait.torques import Torques
 
 UNIT = "_torque_nm"
@@ -123,7 +123,7 @@ def _read_csv(path: Path, name: str | None, _mass: float | None) -> Torques:
     return _torques(path, table.times("time_s"), _filled(table, here), said or path.name)
 
 
-def _filled(table: Table, columns: dict[str, str]) -> Array:
+def _filled(table: NumericTable, columns: dict[str, str]) -> Array:
     """The table's columns in the order of `JOINTS`, NaN where there is none."""
     tau = np.full((len(table.values), len(JOINTS)), np.nan)
     tau[:, [JOINTS.index(joint) for joint in columns]] = table.columns(columns.values())

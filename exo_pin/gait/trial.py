@@ -19,7 +19,7 @@ UPS = ("+x", "+y", "+z", "-x", "-y", "-z")
 
 
 @dataclass(frozen=True, eq=False)
-class Plate:
+class ForcePlate:
     """What one force plate measured, in the axes of its trial.
 
     Attributes:
@@ -68,7 +68,7 @@ class Markers:
     up: str = ""
     angles: Mapping[str, Array] = field(default_factory=dict)
     events: tuple[Event, ...] = ()
-    plates: tuple[Plate, ...] = ()
+    plates: tuple[ForcePlate, ...] = ()
     source: str = ""
 
     def __post_init__(self) -> None:
@@ -123,7 +123,7 @@ class Markers:
         """The same trial in other axes: every vector times `R (3, 3)`; z is up then."""
         R = np.asarray(R, dtype=float)
         plates = tuple(
-            Plate(p.name, p.time, p.force @ R.T, p.point @ R.T, p.moment @ R.T) for p in self.plates
+            ForcePlate(p.name, p.time, p.force @ R.T, p.point @ R.T, p.moment @ R.T) for p in self.plates
         )
         position = self.position @ R.T
         return Markers(self.time, self.names, position, "+z", self.angles, self.events, plates, self.source)

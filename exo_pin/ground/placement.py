@@ -18,7 +18,7 @@ from exo_pin.robot import Robot
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Placement:
     """What is shown, sampled as the gait is.
 
     Attributes:
@@ -44,7 +44,7 @@ class Motion:
     support: Support
 
 
-def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
+def motion(robot: Robot, gait: Gait, style: str = "carried") -> Placement:
     """Put a robot through a gait and stand it on the ground.
 
     Args:
@@ -65,7 +65,7 @@ def motion(robot: Robot, gait: Gait, style: str = "carried") -> Motion:
 
 def stood(
     gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array, style: str, who: str = WHO
-) -> Motion:
+) -> Placement:
     """Stand any walker on the ground.
 
     Args:
@@ -86,7 +86,7 @@ def stood(
     carried = support(style, gait, given, corners, standing, who)
     base = carried.base
     shown = base[:, None] @ T_pelvis
-    return Motion(
+    return Placement(
         time=gait.time - gait.time[0],
         q=q,
         base=base,

@@ -21,7 +21,7 @@ from exo_pin.ik.solvers import NEARLY, closed_form_of
 from exo_pin.ik.subtree import limbs
 from exo_pin.ik.targets import Goal, pose_array
 from exo_pin.robot import Robot
-from exo_pin.robot.leg_axes import AXES, Leg, leg
+from exo_pin.robot.leg_axes import AXES, LegAxes, leg
 
 asarray, forward = np.asarray, pin.framesForwardKinematics  # looked up once: this is the inner loop
 
@@ -151,7 +151,7 @@ class Online:
         return self._good(targets)
 
 
-def _own_leg(robot: Robot, frame: str) -> Leg:
+def _own_leg(robot: Robot, frame: str) -> LegAxes:
     own = leg(robot, frame)
     if own is None:
         raise DescriptionError(f"{frame} is not on a leg of six revolute joints; use ik.solve for it")
@@ -167,7 +167,7 @@ def _carry(robot: Robot, q: Array, base: npt.ArrayLike | None) -> Array | None:
     return None
 
 
-def _bare_legs(legs: Sequence[Leg]) -> Any:
+def _bare_legs(legs: Sequence[LegAxes]) -> Any:
     """Pinocchio's model of nothing but the legs' joints and tips: half the cost of the whole robot's."""
     model = pin.Model()
     for own in legs:
@@ -181,7 +181,7 @@ def _bare_legs(legs: Sequence[Leg]) -> Any:
     return model
 
 
-def _formula(own: Leg) -> Formula | None:
+def _formula(own: LegAxes) -> Formula | None:
     exact = closed_form_of(own)
     return None if exact is None else formula(exact, own.lower, own.upper)
 

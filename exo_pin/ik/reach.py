@@ -7,10 +7,10 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.ik.leg.forward import Matrix, Number, components, mix
 from exo_pin.ik.targets import CHUNK, Goal
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 
-def slack(leg: Leg, R: Matrix, p: list[Number]) -> Array:
+def slack(leg: LegAxes, R: Matrix, p: list[Number]) -> Array:
     """Reach minus distance from the hip centre to the ankle of the target pose (m,) [m].
 
     Negative where the leg is too short by that much.
@@ -20,7 +20,7 @@ def slack(leg: Leg, R: Matrix, p: list[Number]) -> Array:
     return np.asarray(leg.reach - np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))
 
 
-def slack_of(leg: Leg | None, goal: Goal) -> Array:
+def slack_of(leg: LegAxes | None, goal: Goal) -> Array:
     """The slack of all samples (n,); NaN for targets without a rotation and frames that no leg carries."""
     out = np.full(len(goal.p), np.nan)
     if leg is None or goal.R is None:

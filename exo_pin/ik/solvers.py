@@ -20,14 +20,14 @@ from exo_pin.ik.settings import Auto, ClosedForm, Dls
 from exo_pin.ik.solution_buffer import Sheet
 from exo_pin.ik.subtree import Limb
 from exo_pin.ik.subtree_arrays import branches
-from exo_pin.robot.leg_axes import Leg, leg
+from exo_pin.robot.leg_axes import LegAxes, leg
 
 NEARLY = 0.2
 """Axes this near to an ideal leg's [m, sine] lend their closed form as a seed."""
-_IDEALS: weakref.WeakKeyDictionary[Leg, dict[float, IdealLeg | None]] = weakref.WeakKeyDictionary()
+_IDEALS: weakref.WeakKeyDictionary[LegAxes, dict[float, IdealLeg | None]] = weakref.WeakKeyDictionary()
 
 
-def closed_form_of(own: Leg, *, tolerance: float = 1e-9) -> IdealLeg | None:
+def closed_form_of(own: LegAxes, *, tolerance: float = 1e-9) -> IdealLeg | None:
     """The constants of the leg's closed form, read once."""
     known = _IDEALS.setdefault(own, {})
     if tolerance not in known:
@@ -79,7 +79,7 @@ def descend(task: Problem, settings: Dls) -> Track:
     return sheet.track(task, settings.tolerance)
 
 
-def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, sheet: Sheet) -> None:
+def _iterate(task: Problem, limb: Limb, f: int, own: LegAxes | None, settings: Dls, sheet: Sheet) -> None:
     """All samples at once where they do not wait for each other, else one after the other."""
     for place in task.places_of(limb) if not limb.floats else ():
         goal = task.goals[place]
@@ -95,7 +95,7 @@ def _iterate(task: Problem, limb: Limb, f: int, own: Leg | None, settings: Dls, 
         batch.descent(task, f, own, settings, sheet, seed=seed)
 
 
-def _limbs(task: Problem) -> Iterator[tuple[Limb, int, Leg | None]]:
+def _limbs(task: Problem) -> Iterator[tuple[Limb, int, LegAxes | None]]:
     """Each limb, with its target and its leg where it is a leg that is asked for full poses."""
     for limb in task.limbs:
         places = task.places_of(limb)

@@ -42,7 +42,7 @@ class Branches:
     frames: Array
 
 
-class Pose(NamedTuple):
+class SubtreePose(NamedTuple):
     """Where the joints of a limb are, m samples.
 
     Attributes:
@@ -87,7 +87,7 @@ def _read(limb: Limb) -> Branches | None:
     )
 
 
-def motion(limb: Branches, q: Array) -> Pose:
+def motion(limb: Branches, q: Array) -> SubtreePose:
     """Where axes and frames are at the configurations q (J, m)."""
     R, p = _steps(limb, q)
     before_R, before_p = [], []
@@ -104,7 +104,7 @@ def motion(limb: Branches, q: Array) -> Pose:
     axes = np.einsum("jabm,jb->ajm", S, limb.axes)
     points = np.einsum("jabm,jb->ajm", S, limb.points) + t.swapaxes(0, 1)
     ends = [done[j] if j >= 0 else still for j in limb.carriers]
-    return Pose(axes, points, np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends]))
+    return SubtreePose(axes, points, np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends]))
 
 
 def times(A: Array, B: Array) -> Array:

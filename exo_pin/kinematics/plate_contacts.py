@@ -21,7 +21,7 @@ from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
 if TYPE_CHECKING:  # the formats are many files, and only a name is needed
-    from exo_pin.formats import Plate
+    from exo_pin.formats import ForcePlate
 
 
 NEAR = 0.3
@@ -63,7 +63,7 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
     )
 
 
-def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Event, ...]:
+def plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tuple[Event, ...]:
     """Heel strikes and toe-offs from force plates, z up; each contact belongs to the foot above it.
 
     A contact that could be either foot's, or nobody's, gives no event.
@@ -92,7 +92,7 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> tuple[Eve
     return tuple(sorted(found, key=lambda event: event.time))
 
 
-def with_plates(robot: Robot, gait: Gait, forces: Iterable[Plate]) -> Gait:
+def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
     """The gait with events: those of the plates, and beside them its own or those of its kinematics.
 
     A plate measures a step or two, a walk has more; each event says its source. Kinematics find all strikes
@@ -129,7 +129,7 @@ def _same(one: Event, other: Event) -> bool:
     return (one.kind, one.side) == (other.kind, other.side) and abs(one.time - other.time) < SAME
 
 
-def _whose(time: Array, soles: Array, plate: Plate, contact: force_plates.Contact) -> str:
+def _whose(time: Array, soles: Array, plate: ForcePlate, contact: force_plates.Contact) -> str:
     """The side of the foot that is nearest to the force all the time, or "" where that is not clear."""
     rows = slice(contact.start, contact.stop)
     t, point = plate.time[rows], plate.point[rows, :2]

@@ -14,11 +14,11 @@ from exo_pin.arrays import Array, Index
 from exo_pin.robot import Robot
 
 AXES = 6
-_LEGS: weakref.WeakKeyDictionary[Robot, dict[str, Leg | None]] = weakref.WeakKeyDictionary()
+_LEGS: weakref.WeakKeyDictionary[Robot, dict[str, LegAxes | None]] = weakref.WeakKeyDictionary()
 
 
 @dataclass(frozen=True, eq=False)
-class Leg:
+class LegAxes:
     """Six revolute joints in a row and the frame that they carry, the robot at its own placement, q = 0.
 
     Attributes:
@@ -77,7 +77,7 @@ class Leg:
         return math.sqrt(float(thigh @ thigh + shank @ shank - 2 * min(dots)))
 
 
-def leg(robot: Robot, frame: str) -> Leg | None:
+def leg(robot: Robot, frame: str) -> LegAxes | None:
     """The leg that carries a frame, or None where that is not a chain of six revolute joints."""
     known = _LEGS.setdefault(robot, {})
     if frame not in known:
@@ -93,7 +93,7 @@ def nearest_point(points: Array, axes: Array) -> Array:
     return np.asarray(middle + np.linalg.lstsq(across.sum(axis=0), right, rcond=1e-9)[0])
 
 
-def _read(robot: Robot, frame: str) -> Leg | None:
+def _read(robot: Robot, frame: str) -> LegAxes | None:
     model, data = robot.model, robot.model.createData()
     index = robot.frame(frame)
     joints = [int(j) for j in model.supports[model.frames[index].parentJoint] if j > 0]
@@ -108,7 +108,7 @@ def _read(robot: Robot, frame: str) -> Leg | None:
     if np.abs(np.linalg.norm(axes, axis=1) - 1.0).max() > 1e-9:
         return None  # a prismatic joint
     columns = np.array([model.idx_qs[j] for j in joints])
-    return Leg(
+    return LegAxes(
         frame=frame,
         columns=columns,
         axes=axes,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import exo_pin
+from exo_pin import version
 from exo_pin.anatomy import Body
 from exo_pin.compare import PHASES, Conditions, Loss, compare
 from exo_pin.description import sources
@@ -47,7 +47,7 @@ class Case:
     parts: tuple[tuple[Conditions, Device], ...]
     path: str = ""
     preset: str | None = None
-    version: str = field(default_factory=lambda: exo_pin.__version__)
+    version: str = field(default_factory=lambda: version.__version__)
 
     @functools.cached_property
     def fingerprints(self) -> tuple[str, ...]:
@@ -94,8 +94,8 @@ def solve(case: Case) -> Outcome:
 
     Whatever goes wrong with a recording is told in the outcome, so that one bad file does not stop the rest.
     """
-    if case.version != exo_pin.__version__:
-        return Outcome(case, failure=_line(case, f"the worker has exo_pin {exo_pin.__version__}"))
+    if case.version != version.__version__:
+        return Outcome(case, failure=_line(case, f"the worker has exo_pin {version.__version__}"))
     try:
         gait, body = _walk(case)
         rows = [

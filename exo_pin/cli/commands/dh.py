@@ -12,7 +12,7 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
 from exo_pin.cli import options
-from exo_pin.dh import Row, ends, table
+from exo_pin.dh import DHRow, ends, table
 
 _EXAMPLES = """examples:
   exo-pin dh                                 as Markdown
@@ -30,11 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_hip_order(parser)
 
 
-class Table(NamedTuple):
+class _Table(NamedTuple):
     """One leg's table, with T_pelvis_0 before it and T_6_foot behind it."""
 
     side: str
-    rows: Sequence[Row]
+    rows: Sequence[DHRow]
     base: Array
     tool: Array
 
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
         f"{difference:.1e}"
     )
     legs = [
-        Table(side, table(body, side, hip_order=order), *ends(body, side, hip_order=order)) for side in SIDES
+        _Table(side, table(body, side, hip_order=order), *ends(body, side, hip_order=order)) for side in SIDES
     ]
     print(_FORMATS[args.format](legs, note))
     return 0
@@ -70,7 +70,7 @@ def _angle(name: str, offset: float) -> str:
     return name if not offset else f"{name} {'-' if offset < 0 else '+'} {abs(math.degrees(offset)):g}"
 
 
-def _cells(rows: Sequence[Row]) -> list[list[str]]:
+def _cells(rows: Sequence[DHRow]) -> list[list[str]]:
     """joint, i, alpha [deg], a [m], theta [deg], d [m]."""
     cells = []
     for i, row in enumerate(rows, 1):
@@ -82,13 +82,13 @@ def _cells(rows: Sequence[Row]) -> list[list[str]]:
 _HEAD = ["joint", "i", "alpha_{i-1} [deg]", "a_{i-1} [m]", "theta_i [deg]", "d_i [m]"]
 
 
-def _markdown(legs: Sequence[Table], note: str) -> str:
+def _markdown(legs: Sequence[_Table], note: str) -> str:
     lines = [_HEAD, ["---"] * len(_HEAD), *(cells for leg in legs for cells in _cells(leg.rows))]
     drawn = "\n".join("| " + " | ".join(line) + " |" for line in lines)
     return f"{drawn}\n\n{note}\n\n{_ends(legs, '- ')}"
 
 
-def _ends(legs: Sequence[Table], mark: str) -> str:
+def _ends(legs: Sequence[_Table], mark: str) -> str:
     return "\n".join(
         f"{mark}{leg.side} leg: {name} = [{_matrix(T)}; 0 0 0 1]"
         for leg in legs
@@ -96,7 +96,7 @@ def _ends(legs: Sequence[Table], mark: str) -> str:
     )
 
 
-def _csv(legs: Sequence[Table], note: str) -> str:
+def _csv(legs: Sequence[_Table], note: str) -> str:
     lines = [
         f"{row.joint},{i},{row.alpha!r},{row.a!r},{row.offset!r},{row.d!r}"
         for leg in legs
@@ -105,7 +105,7 @@ def _csv(legs: Sequence[Table], note: str) -> str:
     return "\n".join([f"# {note}", _ends(legs, "# "), "joint,i,alpha_rad,a_m,theta_offset_rad,d_m", *lines])
 
 
-def _latex(legs: Sequence[Table], note: str) -> str:
+def _latex(legs: Sequence[_Table], note: str) -> str:
     head = r"joint & $i$ & $\alpha_{i-1}$ [deg] & $a_{i-1}$ [m] & $\theta_i$ [deg] & $d_i$ [m] \\ \hline"
     lines = []
     for joint, i, alpha, a, theta, d in (cells for leg in legs for cells in _cells(leg.rows)):
@@ -115,7 +115,7 @@ def _latex(legs: Sequence[Table], note: str) -> str:
     return "\n".join([*top, *lines, r"\hline", r"\end{tabular}"])
 
 
-def _matlab(legs: Sequence[Table], note: str) -> str:
+def _matlab(legs: Sequence[_Table], note: str) -> str:
     lines = [f"% {note}"]
     for leg in legs:
         lines.append(f"{leg.side} = SerialLink([")
@@ -132,7 +132,7 @@ def _matlab(legs: Sequence[Table], note: str) -> str:
     return "\n".join(lines)
 
 
-_FORMATS: dict[str, Callable[[Sequence[Table], str], str]] = {
+_FORMATS: dict[str, Callable[[Sequence[_Table], str], str]] = {
     "markdown": _markdown,
     "csv": _csv,
     "latex": _latex,

@@ -25,7 +25,7 @@ from exo_pin.formats.reading import Reading
 from exo_pin.formats.tables.notes import Notes, to_gait
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import nearest_pose
-from exo_pin.gait.trial import Markers, Plate, to_z_up, unique
+from exo_pin.gait.trial import ForcePlate, Markers, to_z_up, unique
 from exo_pin.signals import longest_run
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
@@ -231,8 +231,8 @@ def _up(found: Mapping[str, NDArray[Any]]) -> str:
     return said if said[1:] in ("x", "y", "z") else ""
 
 
-def _plates(path: Path, found: Mapping[str, NDArray[Any]], start: float) -> tuple[Plate, ...]:
-    rate, plates = float(found["analog_rate"]), list[Plate]()
+def _plates(path: Path, found: Mapping[str, NDArray[Any]], start: float) -> tuple[ForcePlate, ...]:
+    rate, plates = float(found["analog_rate"]), list[ForcePlate]()
     while rate > 0 and (key := f"plate_{len(plates)}") + "_force" in found:
         newton, torque, length = (str(unit).strip() for unit in found[f"{key}_units"])
         if newton != "N" or torque not in NEWTON_METRES or length not in METRES:
@@ -240,5 +240,5 @@ def _plates(path: Path, found: Mapping[str, NDArray[Any]], start: float) -> tupl
         force, point, moment = (found[f"{key}_{x}"].T for x in ("force", "center_of_pressure", "Tz"))
         time = start + np.arange(len(force)) / rate
         name = f"force plate {len(plates) + 1}"
-        plates.append(Plate(name, time, force, point * METRES[length], moment * NEWTON_METRES[torque]))
+        plates.append(ForcePlate(name, time, force, point * METRES[length], moment * NEWTON_METRES[torque]))
     return tuple(plates)

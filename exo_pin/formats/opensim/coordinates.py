@@ -18,7 +18,7 @@ from exo_pin.formats.opensim.storage import Storage, read_storage, write_storage
 from exo_pin.formats.presets import OPENSIM, PRESETS, Preset, inferred, preset
 from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.tables.notes import Notes, read, to_gait, to_lines
-from exo_pin.formats.tables.numeric_table import Table
+from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.gait import Gait
 
 TIME = "time"
@@ -130,7 +130,7 @@ def write_gait(gait: Gait, path: Path, *, habit: Preset = WRITTEN) -> None:
     write_storage(path, "Coordinates", remarks, [*names, *LEGS], values, degrees=True)
 
 
-def _coordinates(storage: Storage, means: Convention) -> Table:
+def _coordinates(storage: Storage, means: Convention) -> NumericTable:
     """The table with plain coordinate names; refuses what holds no coordinates."""
     table, path = storage.table, storage.table.path
     line = table.lines[0] - 1
@@ -157,10 +157,10 @@ def _coordinates(storage: Storage, means: Convention) -> Table:
             else ""
         )
         raise FormatError(path, f"missing coordinates: {', '.join(gone or pelvis)}{hint}", line=line)
-    return Table(path, names, table.values, table.lines)
+    return NumericTable(path, names, table.values, table.lines)
 
 
-def _values(table: Table, means: Convention, degrees: bool) -> tuple[dict[str, Array], list[str]]:
+def _values(table: NumericTable, means: Convention, degrees: bool) -> tuple[dict[str, Array], list[str]]:
     """Coordinates of legs and pelvis `(n,)` [rad, m], and which of them the model's defaults gave."""
     wanted = list(dict.fromkeys([*LEGS, *means.pelvis]))
     there = [name for name in wanted if name in table.names]

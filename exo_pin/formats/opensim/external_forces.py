@@ -12,8 +12,8 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.pelvis_axes import OURS
 from exo_pin.formats.opensim.storage import read_storage
-from exo_pin.formats.tables.numeric_table import Table
-from exo_pin.gait.trial import Plate
+from exo_pin.formats.tables.numeric_table import NumericTable
+from exo_pin.gait.trial import ForcePlate
 
 FORCE = re.compile(
     r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"
@@ -21,7 +21,7 @@ FORCE = re.compile(
 """`1_ground_force_vx`, `ground_force_1_vx`, `ground_force_l_px`, `ground_torque_x`, `l_ground_moment_mx`."""
 
 
-def load_forces(path: str | Path) -> tuple[Plate, ...]:
+def load_forces(path: str | Path) -> tuple[ForcePlate, ...]:
     """Read the force plates of a .mot or .sto file; OpenSim's axes (y up) become ours (z up).
 
     A point or moment that is NaN, as many programs write it while nobody stands on the plate, is 0.
@@ -41,7 +41,7 @@ def load_forces(path: str | Path) -> tuple[Plate, ...]:
 
 
 def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
-    """Plate -> (`vx`, `py`, `mz` ...) -> column."""
+    """ForcePlate -> (`vx`, `py`, `mz` ...) -> column."""
     groups: dict[str, dict[str, str]] = {}
     for name in names:
         match = FORCE.match(name)
@@ -53,7 +53,7 @@ def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
     return {key: columns for key, columns in groups.items() if {"vx", "vy", "vz"} <= set(columns)}
 
 
-def _plate(table: Table, time: Array, name: str, columns: dict[str, str]) -> Plate:
+def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str]) -> ForcePlate:
     parts = []
     for what in "vpm":
         gone = [what + axis for axis in "xyz" if what + axis not in columns]
@@ -64,4 +64,4 @@ def _plate(table: Table, time: Array, name: str, columns: dict[str, str]) -> Pla
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
         parts.append(np.nan_to_num(values) @ OURS.T)
-    return Plate(f"force plate {name}".strip(), time, *parts)
+    return ForcePlate(f"force plate {name}".strip(), time, *parts)

@@ -11,7 +11,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_lines, write_text
 from exo_pin.formats.tables.notes import Note, split
-from exo_pin.formats.tables.numeric_table import Table, parse, rows_of_text
+from exo_pin.formats.tables.numeric_table import NumericTable, parse, rows_of_text
 
 LONGEST_HEADER = 10_000
 """Lines; a header is a dozen."""
@@ -33,7 +33,7 @@ class Storage(NamedTuple):
     title: str
     keys: dict[str, str]
     notes: list[Note]
-    table: Table
+    table: NumericTable
 
 
 def read_storage(path: Path, *, gaps: bool = False) -> Storage:
@@ -70,7 +70,7 @@ def read_storage(path: Path, *, gaps: bool = False) -> Storage:
     return Storage(lines[0].strip(), keys, split(lines[:end]), table)
 
 
-def _check_size(path: Path, keys: dict[str, str], table: Table) -> None:
+def _check_size(path: Path, keys: dict[str, str], table: NumericTable) -> None:
     """A file that holds less than it says was cut short."""
     size = dict(zip(("rows", "columns"), table.values.shape, strict=True))
     for key, what in COUNTS.items():

@@ -10,7 +10,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_lines, write_text
 from exo_pin.formats.tables.notes import Note, Notes, split, to_lines
-from exo_pin.formats.tables.numeric_table import Table, missing, parse, rows_of_text
+from exo_pin.formats.tables.numeric_table import NumericTable, missing, parse, rows_of_text
 
 MAPPING = "its column = our joint, --map COLUMN=JOINT"
 """How a table of others is read."""
@@ -18,7 +18,7 @@ MAPPING = "its column = our joint, --map COLUMN=JOINT"
 
 def read_csv(
     path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]], *, separator: str = ","
-) -> tuple[Table, tuple[str, ...], list[Note]]:
+) -> tuple[NumericTable, tuple[str, ...], list[Note]]:
     """Read a table whose columns are known by name; their order is free.
 
     Args:

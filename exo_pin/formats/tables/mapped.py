@@ -17,7 +17,7 @@ from exo_pin.files import read_lines
 from exo_pin.formats.presets import preset
 from exo_pin.formats.reading import UNITS, Reading
 from exo_pin.formats.tables.notes import Notes, to_gait
-from exo_pin.formats.tables.numeric_table import Table, parse, refuse_length
+from exo_pin.formats.tables.numeric_table import NumericTable, parse, refuse_length
 from exo_pin.gait import Gait
 from exo_pin.signals import GAP, filled, longest_run
 
@@ -170,7 +170,7 @@ def _units(path: Path, told: str | None, columns: Sequence[str], line: int) -> s
 
 def _table(
     path: Path, names: list[str], lines: list[str], start: int, separator: str, used: list[str]
-) -> Table:
+) -> NumericTable:
     """The used columns as numbers."""
     twice = next((name for name in used if names.count(name) > 1), None)
     if twice is not None:
@@ -201,7 +201,7 @@ def _no_numbers(cells: Sequence[str]) -> bool:
     return not any(re.search(r"\d", cell) for cell in cells)
 
 
-def _angles(table: Table, column: Column, scale: float) -> Array:
+def _angles(table: NumericTable, column: Column, scale: float) -> Array:
     n = len(table.values)
     values = (
         np.full(n, column.constant) if column.constant is not None else table.columns([column.name])[:, 0]

@@ -17,7 +17,7 @@ MOST_ROWS = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class NumericTable:
     """Named columns of finite numbers (or NaN, where the reader allows gaps).
 
     Attributes:
@@ -72,7 +72,7 @@ def parse(
     first: int,
     delimiter: str | None,
     gaps: bool = False,
-) -> Table:
+) -> NumericTable:
     """Read the rows below a header.
 
     Args:
@@ -100,7 +100,7 @@ def parse(
         raise _culprit(path, names, rows, delimiter, str(error)) from error
     if values.shape != (len(rows), len(names)):
         raise _culprit(path, names, rows, delimiter, "the rows do not fit the header")
-    table = Table(path, tuple(names), values, [number for number, _ in rows])
+    table = NumericTable(path, tuple(names), values, [number for number, _ in rows])
     bad = np.isinf(values) if gaps else ~np.isfinite(values)
     table.refuse(bad, table.names, "expected a finite number")
     return table

@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.tables.notes import Note
-from exo_pin.formats.tables.numeric_table import Table
+from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 
 KEY = "pelvis"
@@ -35,7 +35,7 @@ def read_base(path: Path, notes: Sequence[Note], n: int) -> Array | None:
     if len(said) != n:
         raise FormatError(path, f"{len(said)} lines '# {KEY}: ...' for {n} points", line=said[0].line)
     values = np.array([_numbers(path, note) for note in said])
-    return read_poses(Table(path, pose_names(KEY), values, [note.line for note in said]), KEY)
+    return read_poses(NumericTable(path, pose_names(KEY), values, [note.line for note in said]), KEY)
 
 
 def _numbers(path: Path, note: Note) -> list[float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.formats.tables.numeric_table import Table
+from exo_pin.formats.tables.numeric_table import NumericTable
 
 UNIT = 1e-6
 """How far a quaternion's length may lie from 1: six decimals, what careful files carry."""
@@ -21,7 +21,7 @@ def pose_values(T: Array) -> Array:
     return np.hstack([T[:, :3, 3], quaternions(T[:, :3, :3])])
 
 
-def read_poses(table: Table, frame: str) -> Array:
+def read_poses(table: NumericTable, frame: str) -> Array:
     """`(n, 4, 4)` poses of the frame.
 
     Raises:

@@ -23,7 +23,7 @@ import numpy.typing as npt
 from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares.leg_kernel import turn
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.subtree_arrays import Branches, Pose, motion, times
+from exo_pin.ik.subtree_arrays import Branches, SubtreePose, motion, times
 from exo_pin.ik.targets import Goal
 
 
@@ -106,7 +106,9 @@ def pull(limb: Branches, aimed: list[Aim], q: Array) -> Pull:
     return total
 
 
-def _add_points(total: Pull, limb: Branches, now: Pose, aim: Aim, f: int, own: Index, spin: Array) -> None:
+def _add_points(
+    total: Pull, limb: Branches, now: SubtreePose, aim: Aim, f: int, own: Index, spin: Array
+) -> None:
     x = np.einsum("abm,bk->akm", now.R[f], aim.local) + now.p[f][:, None]
     e = aim.p - x
     distance = np.sqrt((e * e).sum(axis=0))

@@ -17,7 +17,7 @@ from exo_pin.ik.least_squares import normal_equations
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.leg.forward import Matrix, Number, components, motion
 from exo_pin.ik.settings import Dls
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 CHUNK = 6000
 KNEE = 3
@@ -45,7 +45,7 @@ class Batch:
         self.q[:, where], self.errors[:, where] = better.q, better.errors
 
 
-def answers(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls, *, reachable: Mask) -> Batch:
+def answers(leg: LegAxes, R: Array, p: Array, seed: Array, settings: Dls, *, reachable: Mask) -> Batch:
     """Joint angles from the seeds (6, m); samples that got stuck are started again elsewhere.
 
     Args:
@@ -68,7 +68,7 @@ def answers(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls, *, reachab
     return out
 
 
-def _starts(leg: Leg, count: int) -> Iterator[Callable[[Array], Array]]:
+def _starts(leg: LegAxes, count: int) -> Iterator[Callable[[Array], Array]]:
     """Starts made from where samples got stuck: the knee bent a little either way, then elsewhere."""
     for bend in (KICK, -KICK)[:count]:
         yield partial(np.add, bend * (np.arange(6) == KNEE)[:, None])
@@ -80,7 +80,7 @@ def _everywhere(start: Array, q: Array) -> Array:
     return np.tile(start[:, None], q.shape[1])
 
 
-def _descend(leg: Leg, R: Array, p: Array, seed: Array, settings: Dls) -> Batch:
+def _descend(leg: LegAxes, R: Array, p: Array, seed: Array, settings: Dls) -> Batch:
     """Levenberg-Marquardt steps within the limits, in a pool that samples leave and join."""
     low, high = leg.lower[:, None], leg.upper[:, None]
     start = np.where(np.isnan(seed), 0.5 * (low + high), seed)
@@ -113,7 +113,7 @@ class _Pool:
     steps: Index
 
     @classmethod
-    def of(cls, leg: Leg, R: Array, p: Array, out: Batch, part: slice, settings: Dls) -> _Pool:
+    def of(cls, leg: LegAxes, R: Array, p: Array, out: Batch, part: slice, settings: Dls) -> _Pool:
         """New samples at their seeds."""
         who = np.arange(len(p))[part]
         goal, q = _Goal(*components(R[part], p[part])), out.q[:, part]
@@ -143,7 +143,7 @@ class _Pool:
         ]
         return _Pool(np.concatenate([self.who, other.who]), self.goal.joined(other.goal), *both)
 
-    def step(self, leg: Leg, settings: Dls) -> None:
+    def step(self, leg: LegAxes, settings: Dls) -> None:
         """One damped step of every sample; a step that does not help is taken back and damped more."""
         low, high = leg.lower[:, None], leg.upper[:, None]
         A, g = normal_equations.normal(self.J, self.e)
@@ -184,7 +184,7 @@ class _Goal:
         ]
         return _Goal(R, [np.append(x, y) for x, y in zip(self.p, other.p, strict=True)])
 
-    def residual(self, leg: Leg, q: Array, settings: Dls) -> tuple[Array, Array, Array]:
+    def residual(self, leg: LegAxes, q: Array, settings: Dls) -> tuple[Array, Array, Array]:
         """Weighted error (6, m), its Jacobian (6, 6, m) and the plain distance and angle (2, m)."""
         tip, J = motion(leg, q)
         e = np.empty((6, q.shape[1]))

@@ -13,14 +13,14 @@ from exo_pin.arrays import Array
 from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.leg.forward import Matrix, Number
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 ROUNDS = 4
 BENT = 0.06
 """The knee starts bent by this at least [rad]: from a straight leg the iteration would only creep."""
 
 
-def angles(leg: Leg, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
+def angles(leg: LegAxes, ideal: IdealLeg, R: Matrix, p: list[Number]) -> Array:
     """Joint angles (6, m), the best of a few rounds; neither exact nor within the limits."""
     R_asked, p_asked = R, p
     best, least = np.empty((6, np.size(p[0]))), np.full(np.size(p[0]), np.inf)

@@ -16,7 +16,7 @@ from exo_pin.ik.reach import slack, slack_of
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 FEW = 13
 """Up to so many samples plain `math` is quicker than arrays."""
@@ -24,7 +24,7 @@ ROUNDING, ROUGH = 1e-13, 1e-6
 """Errors between these are worth a polish [m, rad]."""
 
 
-def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
+def formula(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) -> None:
     """Write the closed form's answers for the leg of target f, within limits, and their true errors."""
     goal = task.goals[f]
     assert goal.R is not None  # a leg is asked for full poses only (`solvers._limbs`)
@@ -44,7 +44,7 @@ def formula(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> N
             sheet.q[part, column] = q[j]
 
 
-def one_by_one(goal: Goal, leg: Leg, ideal: IdealLeg) -> Array:
+def one_by_one(goal: Goal, leg: LegAxes, ideal: IdealLeg) -> Array:
     """The closed form in plain `math` for a handful of samples, angles (6, n)."""
     assert goal.R is not None  # as above
     solve = scalar.formula(ideal, leg.lower, leg.upper)
@@ -53,7 +53,7 @@ def one_by_one(goal: Goal, leg: Leg, ideal: IdealLeg) -> Array:
     return np.array([solve(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
 
 
-def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:
+def polish(task: Problem, f: int, leg: LegAxes, sheet: Sheet) -> None:
     """Two steps more for the few answers whose limits cut off the rounding of a nearly singular pose."""
     goal, own = task.goals[f], sheet.errors[:, :, f]
     assert goal.R is not None  # as above
@@ -68,7 +68,7 @@ def polish(task: Problem, f: int, leg: Leg, sheet: Sheet) -> None:
     sheet.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
 
 
-def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> None:
+def nearly(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) -> None:
     """Write starts for a calibrated leg from the nearest ideal one; they count as not reached yet."""
     goal = task.goals[f]
     assert goal.R is not None  # as above
@@ -82,7 +82,7 @@ def nearly(task: Problem, f: int, leg: Leg, ideal: IdealLeg, sheet: Sheet) -> No
 
 
 def descent(
-    task: Problem, f: int, leg: Leg, settings: Dls, sheet: Sheet, *, seed: Array | None = None
+    task: Problem, f: int, leg: LegAxes, settings: Dls, sheet: Sheet, *, seed: Array | None = None
 ) -> None:
     """Damped least squares for the samples of target f that are not within the tolerance.
 

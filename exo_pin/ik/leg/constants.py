@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 STRAIGHT = 1e-9
 """How exactly axes must meet [m] or be parallel or at right angles [sine]."""
@@ -58,7 +58,7 @@ class IdealLeg:
     steep: bool
 
 
-def ideal(leg: Leg, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
+def ideal(leg: LegAxes, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
     """The constants of the leg's closed form, or None where it has none.
 
     Args:
@@ -110,7 +110,7 @@ def ideal(leg: Leg, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
     )
 
 
-def _meets(leg: Leg, tolerance: float) -> bool:
+def _meets(leg: LegAxes, tolerance: float) -> bool:
     a, p = leg.axes, leg.points
     apart = [np.linalg.norm(np.cross(a[j], leg.hip - p[j])) for j in range(3)]
     apart += [np.linalg.norm(np.cross(a[j], leg.ankle - p[j])) for j in (4, 5)]
@@ -118,7 +118,7 @@ def _meets(leg: Leg, tolerance: float) -> bool:
     return bool(max(apart) <= tolerance)
 
 
-def _one_branch(leg: Leg, offset: tuple[float, ...]) -> bool:
+def _one_branch(leg: LegAxes, offset: tuple[float, ...]) -> bool:
     knee = sorted((float(leg.lower[3] - offset[3]), float(leg.upper[3] - offset[3])))
     middle = 0.5 * (leg.lower + leg.upper)
     one_side = max(knee[0], -knee[1]) > -1e-9 or abs(knee[0] + knee[1]) > 0.5 * (knee[1] - knee[0])

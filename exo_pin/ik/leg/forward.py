@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.robot.leg_axes import Leg
+from exo_pin.robot.leg_axes import LegAxes
 
 Number = Array | float
 Matrix = list[list[Number]]
@@ -34,7 +34,7 @@ def sines(q: Array) -> tuple[Array, Array]:
     return 2.0 * t * share, (1.0 - square) * share
 
 
-def forward(leg: Leg, q: Array) -> Tip:
+def forward(leg: LegAxes, q: Array) -> Tip:
     """Poses of the leg's frame in the world for joint angles (6, m), the robot at its own placement."""
     s, c = sines(q)
     R, p = _IDENTITY, _row(leg.points[0])
@@ -46,7 +46,7 @@ def forward(leg: Leg, q: Array) -> Tip:
     return Tip(times(R, leg.tip[:3, :3]), p)
 
 
-def motion(leg: Leg, q: Array) -> tuple[Tip, Array]:
+def motion(leg: LegAxes, q: Array) -> tuple[Tip, Array]:
     """The poses of `forward` and the Jacobian (6, 6, m): linear, then angular, in world axes."""
     s, c = sines(q)
     R, p = _IDENTITY, _row(leg.points[0])

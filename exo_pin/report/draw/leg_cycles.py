@@ -14,7 +14,7 @@ from exo_pin.gait import Gait, cycles
 
 
 @dataclass(frozen=True, eq=False)
-class Leg:
+class LegCycle:
     """One leg's angles over its own cycle, heel strike at 0 %.
 
     Attributes:
@@ -34,12 +34,12 @@ class Leg:
     note: str
 
 
-def legs(gait: Gait) -> tuple[Leg, ...]:
+def legs(gait: Gait) -> tuple[LegCycle, ...]:
     """Both legs, those that have a cycle or at least a heel strike to count from."""
     return tuple(leg for leg in (_leg(gait, side) for side in SIDES) if leg is not None)
 
 
-def _leg(gait: Gait, side: str) -> Leg | None:
+def _leg(gait: Gait, side: str) -> LegCycle | None:
     columns = [JOINTS.index(f"{side}_{movement}") for movement in MOVEMENTS]
     try:
         found = cycles(gait, side)
@@ -47,7 +47,7 @@ def _leg(gait: Gait, side: str) -> Leg | None:
         return _estimated(gait, side, columns)
     several = len(found) > 1 and not gait.periodic
     whole = "one cycle" if len(found) == 1 else f"mean of {len(found)} cycles, band: 1 sd between them"
-    return Leg(
+    return LegCycle(
         side,
         found.percent,
         found.mean[:, columns],
@@ -57,7 +57,7 @@ def _leg(gait: Gait, side: str) -> Leg | None:
     )
 
 
-def _estimated(gait: Gait, side: str, columns: list[int]) -> Leg | None:
+def _estimated(gait: Gait, side: str, columns: list[int]) -> LegCycle | None:
     """The whole recording, placed in the cycle by one heel strike and twice the step time."""
     strikes = {s: [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", s)] for s in SIDES}
     if not (strikes["left"] and strikes["right"]):
@@ -70,7 +70,7 @@ def _estimated(gait: Gait, side: str, columns: list[int]) -> Leg | None:
         f"{side}: no whole cycle in the recording; placed by its heel strike at {strikes[side][0]:.3f} s "
         f"and a stride of twice the step time, {stride:.3f} s"
     )
-    return Leg(
+    return LegCycle(
         side,
         np.insert(percent, breaks, np.nan),
         np.insert(q, breaks, np.nan, axis=0),

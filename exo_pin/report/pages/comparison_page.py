@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from exo_pin import __version__
 from exo_pin.compare import Comparison, Worth, comparison_table
 from exo_pin.report.document.blocks import Document, Drawing, Figure, Section, Table, Tiles, Words
 from exo_pin.report.draw import device_drawings as drawn
 from exo_pin.report.draw.pareto import pareto_svg
 from exo_pin.report.sections import losses
+from exo_pin.version import __version__
 
 _PELVIS = {
     "recorded": "moves as recorded under every device: the legs alone are compared",

@@ -9,11 +9,11 @@ from exo_pin.feasible import ACCELERATION
 from exo_pin.gait import Gait, Torques
 from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
 from exo_pin.report.draw import panels
-from exo_pin.report.sections.joint_rates import Motion
+from exo_pin.report.sections.joint_rates import JointRates
 from exo_pin.robot import Robot
 
 
-def rates(robot: Robot, gait: Gait, found: Motion) -> Section:
+def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
     """Charts and peaks of velocity and acceleration."""
     rows = []
     for k, name in enumerate(robot.joints):

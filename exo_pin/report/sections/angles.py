@@ -12,7 +12,7 @@ from exo_pin.gait import Gait, normative_gait, normative_sd
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Words
 from exo_pin.report.draw import panels, svg
 from exo_pin.report.draw.chart import Band, Chart, Curve, Level, Span, draw
-from exo_pin.report.draw.leg_cycles import Leg, legs
+from exo_pin.report.draw.leg_cycles import LegCycle, legs
 from exo_pin.robot import Robot
 
 BAND_SOURCE = (
@@ -44,7 +44,7 @@ def curves(robot: Robot, gait: Gait, normal: str | None) -> Section:
 
 
 def charts(
-    found: Sequence[Leg], *, speed: str | None, limits: dict[str, tuple[float, float]]
+    found: Sequence[LegCycle], *, speed: str | None, limits: dict[str, tuple[float, float]]
 ) -> tuple[Drawing, ...]:
     """Six charts over the cycle, both legs in each, before the normative band.
 
@@ -57,7 +57,11 @@ def charts(
 
 
 def _joint(
-    k: int, movement: str, found: Sequence[Leg], speed: str | None, limits: dict[str, tuple[float, float]]
+    k: int,
+    movement: str,
+    found: Sequence[LegCycle],
+    speed: str | None,
+    limits: dict[str, tuple[float, float]],
 ) -> Drawing:
     bands, curves, spans = [], [], []
     if speed is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from exo_pin import __version__
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.body import Leg
 from exo_pin.errors import DescriptionError, GaitError
@@ -14,6 +13,7 @@ from exo_pin.gait.norms import CITATIONS
 from exo_pin.kinematics import spatiotemporal
 from exo_pin.report.document.blocks import Block, Section, Table, Words
 from exo_pin.robot import Robot
+from exo_pin.version import __version__
 
 
 def body(robot: Robot) -> Section:

@@ -16,7 +16,7 @@ _EXACT = 1e-6  # [s] off an even grid: rounding
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class JointRates:
     """Rates of a robot's joints.
 
     Attributes:
@@ -30,7 +30,7 @@ class Motion:
     how: str
 
 
-def motion(robot: Robot, gait: Gait, cutoff: float | None) -> Motion:
+def motion(robot: Robot, gait: Gait, cutoff: float | None) -> JointRates:
     """Rates of the joints in the robot's own order and hip convention.
 
     Args:
@@ -46,9 +46,9 @@ def motion(robot: Robot, gait: Gait, cutoff: float | None) -> Motion:
     return _rates(gait, q, None, f"{how} Second-order differences.")
 
 
-def _rates(gait: Gait, q: Array, period: float | None, how: str) -> Motion:
+def _rates(gait: Gait, q: Array, period: float | None, how: str) -> JointRates:
     dq, ddq = (curves.derivative(gait.time, q, order, period) for order in (1, 2))
-    return Motion(dq, ddq, how)
+    return JointRates(dq, ddq, how)
 
 
 def _smooth(gait: Gait, q: Array, cutoff: float | None) -> tuple[Array, str]:

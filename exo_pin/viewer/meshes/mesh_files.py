@@ -24,7 +24,7 @@ _HEAD = 84  # bytes of a binary STL before its triangles, their number at the en
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class MeshPart:
     """Triangles of one colour.
 
     Attributes:
@@ -40,7 +40,7 @@ class Part:
     y_up: bool = False
 
 
-def read(path: Path) -> list[Part]:
+def read(path: Path) -> list[MeshPart]:
     """The triangles of a mesh file.
 
     Raises:
@@ -60,7 +60,7 @@ def read(path: Path) -> list[Part]:
     return [part for part in parts if len(part.faces)]
 
 
-def stl(data: bytes) -> list[Part]:
+def stl(data: bytes) -> list[MeshPart]:
     """An STL file, binary or text."""
     count = int.from_bytes(data[_HEAD - 4 : _HEAD], "little")
     if len(data) >= _HEAD and len(data) >= _HEAD + count * _BINARY.itemsize and not _is_text(data, count):
@@ -75,7 +75,7 @@ def stl(data: bytes) -> list[Part]:
     return [_welded(corners)]
 
 
-def obj(data: bytes) -> list[Part]:
+def obj(data: bytes) -> list[MeshPart]:
     """A Wavefront OBJ file; its polygons become fans, its materials are left away."""
     vertices: list[list[float]] = []
     faces: list[tuple[int, int, int]] = []
@@ -88,11 +88,13 @@ def obj(data: bytes) -> list[Part]:
             ring = [k - 1 if k > 0 else len(vertices) + k for k in corners]
             faces += [(ring[0], b, c) for b, c in pairwise(ring[1:])]
     return [
-        Part(np.array(vertices, dtype=float).reshape(-1, 3), np.array(faces, dtype=np.int64).reshape(-1, 3))
+        MeshPart(
+            np.array(vertices, dtype=float).reshape(-1, 3), np.array(faces, dtype=np.int64).reshape(-1, 3)
+        )
     ]
 
 
-def dae(data: bytes) -> list[Part]:
+def dae(data: bytes) -> list[MeshPart]:
     """A COLLADA file."""
     from exo_pin.viewer.meshes.collada import parts
 
@@ -100,7 +102,7 @@ def dae(data: bytes) -> list[Part]:
     return [_used(vertices, faces, color, y_up) for vertices, faces, color in found]
 
 
-READERS: Mapping[str, Callable[[bytes], list[Part]]] = MappingProxyType(
+READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
     {".stl": stl, ".obj": obj, ".dae": dae}
 )
 """What reads the content of a file, by its ending."""
@@ -111,18 +113,18 @@ def _is_text(data: bytes, count: int) -> bool:
     return data.startswith(b"solid") and len(data) != _HEAD + count * _BINARY.itemsize
 
 
-def _welded(corners: Array) -> Part:
+def _welded(corners: Array) -> MeshPart:
     """Triangles that share their corners."""
     keys = np.ascontiguousarray(corners.astype("<f4")).view([("", "<f4")] * 3).ravel()
     _, first, index = np.unique(keys, return_index=True, return_inverse=True)
-    return Part(corners[first], index.reshape(-1, 3).astype(np.int64))
+    return MeshPart(corners[first], index.reshape(-1, 3).astype(np.int64))
 
 
-def _used(vertices: Array, faces: Index, color: Color | None, y_up: bool) -> Part:
+def _used(vertices: Array, faces: Index, color: Color | None, y_up: bool) -> MeshPart:
     """Without the vertices that no face uses."""
     kept, index = np.unique(faces, return_inverse=True)
-    return Part(vertices[kept], index.reshape(-1, 3).astype(np.int64), color, y_up)
+    return MeshPart(vertices[kept], index.reshape(-1, 3).astype(np.int64), color, y_up)
 
 
-def _within(part: Part) -> bool:
+def _within(part: MeshPart) -> bool:
     return bool(part.faces.min() >= 0 and part.faces.max() < len(part.vertices))

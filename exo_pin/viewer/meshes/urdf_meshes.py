@@ -136,7 +136,7 @@ def _light(
     return sum(len(part.faces) for part in parts), any(part.y_up for part in parts), solids
 
 
-def _thin(part: mesh_files.Part, scale: Triple, cell: float, turned: bool) -> Solid:
+def _thin(part: mesh_files.MeshPart, scale: Triple, cell: float, turned: bool) -> Solid:
     vertices = part.vertices
     if part.y_up and turned:
         vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)

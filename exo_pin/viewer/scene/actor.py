@@ -11,7 +11,7 @@ import pinocchio as pin
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import about
-from exo_pin.ground.placement import Motion, motion
+from exo_pin.ground.placement import Placement, motion
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command, Material
 from exo_pin.viewer.scene.link_nodes import Linkage, linkage
@@ -41,7 +41,7 @@ class Actor:
     twins: tuple[tuple[str, str], ...] = ()
 
 
-def exoskeleton(robot: Robot, shown: Motion, tree: Linkage) -> Actor:
+def exoskeleton(robot: Robot, shown: Placement, tree: Linkage) -> Actor:
     """The exoskeleton in the shown motion."""
     chain = Chain("exo", tree.root, tree.links, tree.turns, "q", "base")
     return Actor(tree.commands, chain, samples(robot, shown, tree, ""), Group("Exoskeleton", tree.looks))
@@ -109,7 +109,7 @@ def flat_poses(T: Array) -> Array:
     return rows
 
 
-def samples(robot: Robot, shown: Motion, tree: Linkage, prefix: str) -> dict[str, Array]:
+def samples(robot: Robot, shown: Placement, tree: Linkage, prefix: str) -> dict[str, Array]:
     """The arrays of a chain: joint values in the order of its turns, and base poses."""
     angles = dict(zip(robot.joints, shown.q.T, strict=True))
     if robot.body is not None:  # a gait has no toe angles

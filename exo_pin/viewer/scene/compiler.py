@@ -14,7 +14,7 @@ from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
-from exo_pin.ground.placement import Motion
+from exo_pin.ground.placement import Placement
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer.scene import joint_plots, props
@@ -174,7 +174,7 @@ def _subtitle(gait: Gait) -> str:
     return ", ".join(filter(None, (gait.source, f"{gait.duration:.2f} s {kind}")))
 
 
-def _ground(shown: Motion) -> list[str]:
+def _ground(shown: Placement) -> list[str]:
     notes = [shown.support.note]
     if shown.estimated:
         notes.append("The gait has no contact events: contact is estimated from the lowest sole corners.")
@@ -193,7 +193,7 @@ def _groups(actors: Iterable[Actor], marks: Marks) -> tuple[Group, ...]:
 
 
 def _arrays(
-    shown: Motion, actors: Iterable[Actor], lines: dict[str, Array]
+    shown: Placement, actors: Iterable[Actor], lines: dict[str, Array]
 ) -> dict[str, NDArray[np.floating[Any]]]:
     arrays = {"time": shown.time, "com": shown.com, **lines}
     for actor in actors:

@@ -9,7 +9,7 @@ from difflib import SequenceMatcher
 import numpy as np
 
 from exo_pin.gait import Gait
-from exo_pin.ground.placement import Motion, moved, stood
+from exo_pin.ground.placement import Placement, moved, stood
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Machine, Retargeted, retarget
 from exo_pin.viewer.drawing_commands import Material
@@ -72,7 +72,7 @@ def humanoid(
     )
 
 
-def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion:
+def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Placement:
     machine = result.machine
     T = poses(machine.robot, result.q, [sole.link for sole in feet]) @ np.array([sole.T for sole in feet])
     corners = np.tile(np.eye(4), (len(T), 2, 4, 1, 1))
@@ -83,7 +83,7 @@ def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Motion
     return stood(result.gait, machine.robot.angles(result.q), result.base, seen, com, support, "The pelvis")
 
 
-def _actor(result: Retargeted, shown: Motion, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
+def _actor(result: Retargeted, shown: Placement, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
     """The robot; only its legs' joints have sliders."""
     sides = {joint: leg.side for leg in result.machine.legs for joint in leg.joints}
     turns = tuple(
@@ -162,7 +162,7 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
     return [note for note in notes if note]
 
 
-def _dips(shown: Motion, feet: tuple[Sole, Sole]) -> list[str]:
+def _dips(shown: Placement, feet: tuple[Sole, Sole]) -> list[str]:
     """How deep the tips of rigid feet get below the ground, where a person's toes would bend."""
     low = 0.0
     for k, sole in enumerate(feet):

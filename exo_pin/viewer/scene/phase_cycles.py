@@ -7,10 +7,10 @@ from itertools import pairwise
 from exo_pin.anatomy import SIDES
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
-from exo_pin.viewer.scene.scene import Cycles, Interval
+from exo_pin.viewer.scene.scene import Interval, PhaseCycles
 
 
-def cycles(gait: Gait) -> Cycles:
+def cycles(gait: Gait) -> PhaseCycles:
     """The cycles of the foot that has more of them, the left one if both have as many.
 
     A periodic walk is one cycle, seen around its end; without heel strikes it begins at its first sample.
@@ -19,8 +19,8 @@ def cycles(gait: Gait) -> Cycles:
     found = {side: _of(gait, side) for side in SIDES}
     side = max(SIDES, key=lambda each: len(found[each]))  # the first of equals
     if gait.periodic and not found[side]:
-        return Cycles("", ((0.0, gait.duration),))
-    return Cycles(side if found[side] else "", found[side])
+        return PhaseCycles("", ((0.0, gait.duration),))
+    return PhaseCycles(side if found[side] else "", found[side])
 
 
 def _of(gait: Gait, side: str) -> tuple[Interval, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exo_pin.gait import Gait
-from exo_pin.ground.placement import Motion
+from exo_pin.ground.placement import Placement
 from exo_pin.robot import Robot
 from exo_pin.viewer.scene.actor import Actor
 from exo_pin.viewer.scene.joint_plots import Tab
@@ -33,7 +33,7 @@ class Play:
 
     robot: Robot
     gait: Gait
-    shown: Motion
+    shown: Placement
     actors: tuple[Actor, ...]
     mounts: tuple[Mount, ...]
     grips: tuple[Grip, ...]

@@ -41,7 +41,7 @@ class Chain:
 
 
 @dataclass(frozen=True)
-class Cycles:
+class PhaseCycles:
     """The gait cycles in which phase is counted: whose heel strikes cut them, from and to [s].
 
     `side` is empty where no foot has a cycle, or a periodic walk has no heel strikes. The cycles of a
@@ -168,7 +168,7 @@ class Facts:
     duration: float
     start: float
     periodic: bool
-    cycles: Cycles
+    cycles: PhaseCycles
     stance: Mapping[str, tuple[Interval, ...]]
     contact: str
     reference: str

@@ -7,11 +7,11 @@ import numpy as np
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.arrays import Array
 from exo_pin.devices import TOES
-from exo_pin.ground.placement import Motion
+from exo_pin.ground.placement import Placement
 from exo_pin.ground.stance import lowest_corners
 
 
-def toes(body: Body, shown: Motion) -> dict[str, Array]:
+def toes(body: Body, shown: Placement) -> dict[str, Array]:
     """Toe angles (n,) [rad] by joint, toes up positive, that keep the tips out of the ground.
 
     A toe of length L behind a ball at height h, on a foot that points down by an angle a, reaches the ground

@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.ground.placement import Motion
+from exo_pin.ground.placement import Placement
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command
 from exo_pin.viewer.meshes.thinning import polyline
@@ -48,7 +48,7 @@ class Mount:
     center: tuple[float, float, float]
 
 
-def mounts(robot: Robot, shown: Motion, exo: Linkage) -> tuple[Mount, ...]:
+def mounts(robot: Robot, shown: Placement, exo: Linkage) -> tuple[Mount, ...]:
     """Left and right sole of the exoskeleton."""
     nodes = [exo.links[foot] for foot in FEET]
     return tuple(
@@ -56,7 +56,7 @@ def mounts(robot: Robot, shown: Motion, exo: Linkage) -> tuple[Mount, ...]:
     )
 
 
-def world(gait: Gait, shown: Motion, feet: Sequence[Mount]) -> tuple[list[Command], Marks]:
+def world(gait: Gait, shown: Placement, feet: Sequence[Mount]) -> tuple[list[Command], Marks]:
     """All drawings but the figures, and the nodes among them that the page moves.
 
     Args:
@@ -82,7 +82,7 @@ def world(gait: Gait, shown: Motion, feet: Sequence[Mount]) -> tuple[list[Comman
     return commands, Marks(f"{ROOT}/marks/com/ball", f"{ROOT}/marks/com/disc", 0.003, contact, belt)
 
 
-def boxes(shown: Motion, above_hips: float) -> dict[str, Box]:
+def boxes(shown: Placement, above_hips: float) -> dict[str, Box]:
     """What the cameras frame: the whole figure up to a height above the hips [m], and the feet."""
     framed = slice(1 if shown.support.overground else None)  # over ground the cameras go along
     y, z = float(shown.base[framed, 1, 3].mean()), float(shown.base[0, 2, 3])
@@ -96,13 +96,15 @@ def boxes(shown: Motion, above_hips: float) -> dict[str, Box]:
     }
 
 
-def _treadmill(shown: Motion, gait: Gait) -> props.Treadmill:
+def _treadmill(shown: Placement, gait: Gait) -> props.Treadmill:
     low, high = float(shown.corners[..., 0].min()), float(shown.corners[..., 0].max())
     length = max(high - low + 0.75, 1.5)
     return props.Treadmill((low + high) / 2 + 0.05, length, 0.0, shown.support.belt_speed, gait.duration)
 
 
-def _sole(robot: Robot, shown: Motion, side: str) -> tuple[tuple[float, float], tuple[float, float, float]]:
+def _sole(
+    robot: Robot, shown: Placement, side: str
+) -> tuple[tuple[float, float], tuple[float, float, float]]:
     """Length and width of a foot's sole [m] and its middle, seen from the foot's frame."""
     mine = [k for k, name in enumerate(CORNERS) if name.startswith(side)]
     T = shown.feet[0, SIDES.index(side)]
