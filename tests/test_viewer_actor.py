@@ -10,7 +10,7 @@ from exo_pin import viewer
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scene.actor import aligned
+from exo_pin.viewer.scenes.actor import aligned
 
 SAME = 1e-9  # resampling a band-limited cycle on its own samples changes rounding only
 

@@ -12,8 +12,8 @@ from exo_pin.gait import Gait, normative_gait
 from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scene.actor import flat_poses
-from exo_pin.viewer.scene.world import TRACE_ERROR, TRACE_MOST
+from exo_pin.viewer.scenes.actor import flat_poses
+from exo_pin.viewer.scenes.world import TRACE_ERROR, TRACE_MOST
 
 SINGLE = 2e-7  # float32 keeps seven digits of numbers near 1
 MILLIMETRE = 1e-3

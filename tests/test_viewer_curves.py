@@ -11,8 +11,8 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scene import joint_plots
-from exo_pin.viewer.scene.phase_cycles import cycles
+from exo_pin.viewer.scenes import joint_plots
+from exo_pin.viewer.scenes.phase_cycles import cycles
 
 ORDER = 1e-12  # [rad] through a robot's own coordinates and back
 

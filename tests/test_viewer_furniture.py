@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exo_pin.viewer.scene import props
-from exo_pin.viewer.scene.props import Treadmill
+from exo_pin.viewer.scenes import props
+from exo_pin.viewer.scenes.props import Treadmill
 
 speeds = st.floats(0, 3)
 periods = st.floats(0.5, 3)

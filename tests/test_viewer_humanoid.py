@@ -13,10 +13,10 @@ from exo_pin.retarget import TARGETS, load, retarget
 from exo_pin.robot import load_urdf
 from exo_pin.viewer.live.foot_drag import reacher
 from exo_pin.viewer.live.messages import Wish
-from exo_pin.viewer.scene.appearance import dressed
-from exo_pin.viewer.scene.humanoid import humanoid
-from exo_pin.viewer.scene.joint_plots import groups
-from exo_pin.viewer.scene.soles import soles
+from exo_pin.viewer.scenes.appearance import dressed
+from exo_pin.viewer.scenes.humanoid import humanoid
+from exo_pin.viewer.scenes.joint_plots import groups
+from exo_pin.viewer.scenes.soles import soles
 
 GAIT = normative_gait().resampled(40)
 SINGLE = 1e-6  # [m]: float32 keeps seven digits

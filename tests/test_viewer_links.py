@@ -7,7 +7,7 @@ from exo_pin.errors import DescriptionError
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scene.link_nodes import linkage
+from exo_pin.viewer.scenes.link_nodes import linkage
 
 ROUNDING = 1e-12  # a dozen products of rotations in double precision
 

@@ -7,7 +7,7 @@ from exo_pin import viewer
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scene import person_figure
+from exo_pin.viewer.scenes import person_figure
 
 CENTIMETRE = 0.01
 

@@ -14,18 +14,18 @@ if TYPE_CHECKING:
     from exo_pin.viewer.live.server import Server, serve
     from exo_pin.viewer.notebook import View, view
     from exo_pin.viewer.page.export import html
-    from exo_pin.viewer.scene.compiler import retargeted, scene
-    from exo_pin.viewer.scene.scene import Scene
+    from exo_pin.viewer.scenes.compiler import retargeted, scene
+    from exo_pin.viewer.scenes.scene import Scene
 
 __all__ = ["Scene", "Server", "View", "html", "retargeted", "scene", "serve", "view"]
 
 _HOMES = {
-    "Scene": "scene.scene",
+    "Scene": "scenes.scene",
     "Server": "live.server",
     "View": "notebook",
     "html": "page.export",
-    "retargeted": "scene.compiler",
-    "scene": "scene.compiler",
+    "retargeted": "scenes.compiler",
+    "scene": "scenes.compiler",
     "serve": "live.server",
     "view": "notebook",
 }

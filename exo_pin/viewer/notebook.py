@@ -10,7 +10,7 @@ from typing import Any
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 from exo_pin.viewer.page.export import html
-from exo_pin.viewer.scene.compiler import scene
+from exo_pin.viewer.scenes.compiler import scene
 
 
 @dataclass(frozen=True, eq=False)

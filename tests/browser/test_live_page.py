@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin import viewer
 from exo_pin.kinematics import poses
-from exo_pin.viewer.scene.link_nodes import linkage
+from exo_pin.viewer.scenes.link_nodes import linkage
 
 SINGLE = 1e-6  # [m]: float32
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs

@@ -16,7 +16,7 @@ from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.viewer.film.chromium import Chromium
 from exo_pin.viewer.film.encode import FILMS
 from exo_pin.viewer.page.export import html
-from exo_pin.viewer.scene.scene import Scene
+from exo_pin.viewer.scenes.scene import Scene
 
 CAMERAS = ("iso", "left", "right", "front", "back", "top", "feet")
 """Names of the clinical views, as in the page."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from exo_pin.viewer.scene.scene import Facts
+    from exo_pin.viewer.scenes.scene import Facts
 
 Said = Mapping[str, Any]
 

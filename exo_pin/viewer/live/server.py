@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from tornado.httpserver import HTTPServer
 
     from exo_pin.viewer.live.handlers import Live
-    from exo_pin.viewer.scene.scene import Scene
+    from exo_pin.viewer.scenes.scene import Scene
 
 BUNDLE, POSE = b"\0", b"\1"
 """First byte of a binary message to the page: a packed scene, or one pose."""

@@ -11,7 +11,7 @@ from dataclasses import asdict
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.viewer.scene.scene import Scene
+from exo_pin.viewer.scenes.scene import Scene
 
 _TYPES = {"float32": ("f4", "<f4"), "float64": ("f8", "<f8")}
 

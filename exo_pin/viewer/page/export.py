@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from exo_pin.viewer.page.bundle import bundle
 from exo_pin.viewer.page.page import page
-from exo_pin.viewer.scene.scene import Scene
+from exo_pin.viewer.scenes.scene import Scene
 
 
 def html(scene: Scene) -> str:

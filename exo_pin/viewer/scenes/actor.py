@@ -14,9 +14,9 @@ from exo_pin.gait.rigid import about
 from exo_pin.ground.placement import Placement, motion
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command, Material
-from exo_pin.viewer.scene.link_nodes import Linkage, linkage
-from exo_pin.viewer.scene.scene import Chain, Group
-from exo_pin.viewer.scene.toes import toes
+from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
+from exo_pin.viewer.scenes.scene import Chain, Group
+from exo_pin.viewer.scenes.toes import toes
 
 GHOST = Material((0.36, 0.30, 0.55, 0.30), 0.6, 0.0, more=(("depthWrite", False),))
 """A second motion is a translucent violet: neither leg's colour."""

@@ -10,8 +10,8 @@ from exo_pin.retarget import Machine
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place, translation
 from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
-from exo_pin.viewer.scene.link_nodes import GREY, Linkage, linkage
-from exo_pin.viewer.scene.soles import Sole
+from exo_pin.viewer.scenes.link_nodes import GREY, Linkage, linkage
+from exo_pin.viewer.scenes.soles import Sole
 
 PLATE = 0.02
 """Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""

@@ -21,7 +21,7 @@ from exo_pin.viewer.drawing_commands import (
     sphere,
     translation,
 )
-from exo_pin.viewer.scene.scene import Belt
+from exo_pin.viewer.scenes.scene import Belt
 
 LEFT, RIGHT = (0.82, 0.24, 0.29), (0.16, 0.46, 0.78)
 SIDE_COLORS = {"left": LEFT, "right": RIGHT}

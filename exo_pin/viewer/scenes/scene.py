@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.viewer.drawing_commands import Command
-from exo_pin.viewer.scene.link_nodes import Turn
+from exo_pin.viewer.scenes.link_nodes import Turn
 
 if TYPE_CHECKING:
     from exo_pin.robot import Robot

@@ -7,7 +7,7 @@ from itertools import pairwise
 from exo_pin.anatomy import SIDES
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
-from exo_pin.viewer.scene.scene import Interval, PhaseCycles
+from exo_pin.viewer.scenes.scene import Interval, PhaseCycles
 
 
 def cycles(gait: Gait) -> PhaseCycles:

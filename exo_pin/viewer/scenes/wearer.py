@@ -19,10 +19,10 @@ from exo_pin.gait import Gait
 from exo_pin.viewer.drawing_commands import Command, mesh, place, translation, translucent
 from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.solids import Solid, sphere
-from exo_pin.viewer.scene.actor import Actor
-from exo_pin.viewer.scene.link_nodes import Turn
-from exo_pin.viewer.scene.person_figure import part, scaled
-from exo_pin.viewer.scene.scene import Chain, Group
+from exo_pin.viewer.scenes.actor import Actor
+from exo_pin.viewer.scenes.link_nodes import Turn
+from exo_pin.viewer.scenes.person_figure import part, scaled
+from exo_pin.viewer.scenes.scene import Chain, Group
 
 SKIN = (0.80, 0.62, 0.50, 0.45)
 """Colour and opacity."""

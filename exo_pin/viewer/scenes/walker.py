@@ -9,13 +9,13 @@ from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
 from exo_pin.ground.placement import motion
 from exo_pin.robot import Robot
-from exo_pin.viewer.scene import joint_plots
-from exo_pin.viewer.scene.actor import Actor, aligned, exoskeleton, ghost, in_step
-from exo_pin.viewer.scene.link_nodes import Linkage, linkage
-from exo_pin.viewer.scene.play import Play
-from exo_pin.viewer.scene.scene import Grip
-from exo_pin.viewer.scene.wearer import wearer as person
-from exo_pin.viewer.scene.world import ROOT, mounts
+from exo_pin.viewer.scenes import joint_plots
+from exo_pin.viewer.scenes.actor import Actor, aligned, exoskeleton, ghost, in_step
+from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
+from exo_pin.viewer.scenes.play import Play
+from exo_pin.viewer.scenes.scene import Grip
+from exo_pin.viewer.scenes.wearer import wearer as person
+from exo_pin.viewer.scenes.world import ROOT, mounts
 
 _BACKPACK = 0.34  # ends this far above the hips [m]
 

@@ -14,9 +14,9 @@ from exo_pin.ground.placement import Placement
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command
 from exo_pin.viewer.meshes.thinning import polyline
-from exo_pin.viewer.scene import props
-from exo_pin.viewer.scene.link_nodes import Linkage
-from exo_pin.viewer.scene.scene import Box, Marks
+from exo_pin.viewer.scenes import props
+from exo_pin.viewer.scenes.link_nodes import Linkage
+from exo_pin.viewer.scenes.scene import Box, Marks
 
 ROOT = "/exo_pin"
 """Every node of ours hangs below this one."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from exo_pin.gait import Gait
 from exo_pin.ground.placement import Placement
 from exo_pin.robot import Robot
-from exo_pin.viewer.scene.actor import Actor
-from exo_pin.viewer.scene.joint_plots import Tab
-from exo_pin.viewer.scene.scene import Grip
-from exo_pin.viewer.scene.world import Mount
+from exo_pin.viewer.scenes.actor import Actor
+from exo_pin.viewer.scenes.joint_plots import Tab
+from exo_pin.viewer.scenes.scene import Grip
+from exo_pin.viewer.scenes.world import Mount
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques, curves
 from exo_pin.robot import Robot
-from exo_pin.viewer.scene.scene import Plot, PlotGroup, Series
+from exo_pin.viewer.scenes.scene import Plot, PlotGroup, Series
 
 FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
 """The plots at the top: the sagittal plane; the others follow in the robot's order."""

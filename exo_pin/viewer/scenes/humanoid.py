@@ -14,14 +14,14 @@ from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Machine, Retargeted, retarget
 from exo_pin.viewer.drawing_commands import Material
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
-from exo_pin.viewer.scene import joint_plots
-from exo_pin.viewer.scene.actor import GHOST, Actor, aligned, in_step, samples
-from exo_pin.viewer.scene.appearance import bare, dressed, highest, plate
-from exo_pin.viewer.scene.link_nodes import Linkage
-from exo_pin.viewer.scene.play import Play
-from exo_pin.viewer.scene.scene import Chain, Grip, Group
-from exo_pin.viewer.scene.soles import Sole, soles
-from exo_pin.viewer.scene.world import ROOT, Mount
+from exo_pin.viewer.scenes import joint_plots
+from exo_pin.viewer.scenes.actor import GHOST, Actor, aligned, in_step, samples
+from exo_pin.viewer.scenes.appearance import bare, dressed, highest, plate
+from exo_pin.viewer.scenes.link_nodes import Linkage
+from exo_pin.viewer.scenes.play import Play
+from exo_pin.viewer.scenes.scene import Chain, Grip, Group
+from exo_pin.viewer.scenes.soles import Sole, soles
+from exo_pin.viewer.scenes.world import ROOT, Mount
 
 HEADROOM = 0.06
 """The picture reaches so far above the robot's highest point [m]."""

@@ -17,14 +17,14 @@ from exo_pin.gait.heading import heading, turned
 from exo_pin.ground.placement import Placement
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
-from exo_pin.viewer.scene import joint_plots, props
-from exo_pin.viewer.scene.actor import Actor
-from exo_pin.viewer.scene.humanoid import humanoid
-from exo_pin.viewer.scene.phase_cycles import cycles
-from exo_pin.viewer.scene.play import Play
-from exo_pin.viewer.scene.scene import Facts, Group, Marks, Scene
-from exo_pin.viewer.scene.walker import walker
-from exo_pin.viewer.scene.world import ROOT, boxes, world
+from exo_pin.viewer.scenes import joint_plots, props
+from exo_pin.viewer.scenes.actor import Actor
+from exo_pin.viewer.scenes.humanoid import humanoid
+from exo_pin.viewer.scenes.phase_cycles import cycles
+from exo_pin.viewer.scenes.play import Play
+from exo_pin.viewer.scenes.scene import Facts, Group, Marks, Scene
+from exo_pin.viewer.scenes.walker import walker
+from exo_pin.viewer.scenes.world import ROOT, boxes, world
 
 _ASKEW = radians(15)  # a smaller heading is left as recorded: the cameras forgive it
 
