@@ -16,6 +16,7 @@ import numpy as np
 from exo_pin import cache, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
+from exo_pin.anatomy.names import HipOrder
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
@@ -51,7 +52,7 @@ def sources() -> Path:
 
 
 def arguments(
-    body: Body, *, device: str | Device = "exo12", hip_order: str = "clinical", **overrides: str
+    body: Body, *, device: str | Device = "exo12", hip_order: HipOrder = "clinical", **overrides: str
 ) -> dict[str, str]:
     """Every xacro argument as text, in the order of urdf/arguments.xacro.
 
@@ -82,7 +83,9 @@ def arguments(
     return values
 
 
-def urdf(body: Body, *, device: str | Device = "exo12", hip_order: str = "clinical", **overrides: str) -> str:
+def urdf(
+    body: Body, *, device: str | Device = "exo12", hip_order: HipOrder = "clinical", **overrides: str
+) -> str:
     """The URDF text of the exoskeleton for this body: the same bytes for the same arguments everywhere.
 
     Arguments and errors are those of `arguments`.
@@ -144,7 +147,7 @@ def _inertial(link: str, part: Inertial) -> dict[str, str]:
     }
 
 
-def _structure(device: Device, hip_order: str) -> dict[str, str]:
+def _structure(device: Device, hip_order: HipOrder) -> dict[str, str]:
     """Which joints there are; lists of names, or "none"."""
     return {
         "hip_order": hip_order,

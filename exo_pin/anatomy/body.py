@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from exo_pin.anatomy import anthropometry
-from exo_pin.anatomy.names import SIDES
+from exo_pin.anatomy.names import SIDES, Sex, Side
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.safe import toml_file
@@ -84,13 +84,13 @@ class Body:
     shank_hardware: float = anthropometry.HARDWARE_MASSES["shank_hardware"]
     ankle_hardware: float = anthropometry.HARDWARE_MASSES["ankle_hardware"]
     foot_hardware: float = anthropometry.HARDWARE_MASSES["foot_hardware"]
-    sex: str = "male"
+    sex: Sex = "male"
     wearer: bool = True
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def from_stature(
-        cls, stature: float = 1.75, *, mass: float = 70.0, sex: str = "male", **overrides: Any
+        cls, stature: float = 1.75, *, mass: float = 70.0, sex: Sex = "male", **overrides: Any
     ) -> Body:
         """The body of average proportions; `exo_pin.anatomy.tables` names the sources.
 
@@ -176,7 +176,7 @@ class Body:
                 f"the legs' masses leave nothing of mass = {self.mass:.1f} kg for the upper body"
             )
 
-    def leg(self, side: str) -> Leg:
+    def leg(self, side: Side) -> Leg:
         """Sizes and masses of the leg of `side` (`"left"` or `"right"`)."""
         if side not in SIDES:
             raise UnknownNameError("side", side, SIDES)
@@ -223,7 +223,7 @@ def both_sides(values: Mapping[str, Any]) -> dict[str, Any]:
     return spread | {name: v for name, v in values.items() if name in known}
 
 
-def _average(stature: float, mass: float, sex: str) -> dict[str, float]:
+def _average(stature: float, mass: float, sex: Sex) -> dict[str, float]:
     """Sizes rounded to a micrometre and masses to a milligram, so that files and URDF show plain numbers."""
     lengths = anthropometry.LENGTHS | anthropometry.DESIGN_LENGTHS
     names = ("thigh", "shank", "ankle_height", "foot_length", "foot_width", "hip_width")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.anatomy.names import HIP_ORDERS, SIDES
+from exo_pin.anatomy.names import HIP_ORDERS, SIDES, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
 
-def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Array:
+def reorder(angles: npt.ArrayLike, side: Side, *, source: str, target: str) -> Array:
     """Hip angles of the order `source` as those of the order `target` that make the same rotation.
 
     Args:
@@ -38,7 +38,7 @@ def reorder(angles: npt.ArrayLike, side: str, *, source: str, target: str) -> Ar
     return np.stack(_yxz_of_zxy(a, b, c), axis=-1) * signs
 
 
-def hip_angles(R: npt.ArrayLike, side: str) -> Array:
+def hip_angles(R: npt.ArrayLike, side: Side) -> Array:
     """Clinical hip angles of a thigh's rotation.
 
     Args:
@@ -57,7 +57,7 @@ def hip_angles(R: npt.ArrayLike, side: str) -> Array:
     return np.stack(yxz, axis=-1) * _signs(side)
 
 
-def _signs(side: str) -> Array:
+def _signs(side: Side) -> Array:
     """Flexion turns about -y; adduction and rotation about +x and +z on the right, -x and -z on the left."""
     if side not in SIDES:
         raise UnknownNameError("side", side, SIDES)

@@ -14,7 +14,7 @@ import numpy as np
 
 from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.body import Body, Leg
-from exo_pin.anatomy.names import SIDES
+from exo_pin.anatomy.names import SIDES, Sex
 from exo_pin.arrays import Array
 
 
@@ -134,7 +134,7 @@ def _waist(body: Body) -> Inertial:
     return _box(body.pelvis_hardware, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
 
 
-def _segment(name: str, sex: str, mass: float, length: float, centre: tuple[float, float, float]) -> Inertial:
+def _segment(name: str, sex: Sex, mass: float, length: float, centre: tuple[float, float, float]) -> Inertial:
     """A segment of de Leva's table: principal inertias mass * (radius of gyration * length)^2."""
     radii = np.array(anthropometry.DE_LEVA[sex][name].gyration) * length
     return Inertial(mass, np.array(centre), np.diag(mass * radii**2))

@@ -1,8 +1,36 @@
-"""The names that everything is addressed by: sides, movements, joints, feet and sole corners."""
+"""The names that everything is addressed by: sides, movements, joints, feet and sole corners.
 
-SIDES = ("left", "right")
+Words from a closed vocabulary have a `Literal` type here, so that type checkers find a wrong one.
+"""
 
-MOVEMENTS = (
+from __future__ import annotations
+
+from typing import Literal
+
+Side = Literal["left", "right"]
+Movement = Literal[
+    "hip_flexion", "hip_adduction", "hip_rotation", "knee_flexion", "ankle_dorsiflexion", "ankle_inversion"
+]
+HipOrder = Literal["clinical", "yaw_roll_pitch"]
+"""Order of the three hip joints from the pelvis outwards: ISB and gait laboratories, or humanoids."""
+Base = Literal["fixed", "floating"]
+"""Whether the pelvis is held in place or moves with six degrees of freedom."""
+EventKind = Literal["heel_strike", "toe_off"]
+"""Initial contact of a foot, or the moment it leaves the ground."""
+Sex = Literal["male", "female"]
+Speed = Literal["very_slow", "slow", "free", "fast", "very_fast"]
+"""A speed of the normal walk (Schwartz 2008)."""
+PelvisMotion = Literal["recorded", "device"]
+"""Who moves the pelvis: the recorded walk, or the device as its own slides allow."""
+PassiveJoints = Literal["held", "released"]
+"""Whether joints without a motor are held at zero or move freely."""
+SupportStyle = Literal["carried", "still"]
+"""How the balance support moves the pelvis in a picture: with the walk, or not at all."""
+AngleUnit = Literal["deg", "rad"]
+
+SIDES: tuple[Side, ...] = ("left", "right")
+
+MOVEMENTS: tuple[Movement, ...] = (
     "hip_flexion",
     "hip_adduction",
     "hip_rotation",
@@ -23,13 +51,12 @@ CORNERS = tuple(
 )
 """Contact corners of the soles: heel and ball of the foot, four a foot."""
 
-HIP_ORDERS = {
+HIP_ORDERS: dict[HipOrder, tuple[Movement, Movement, Movement]] = {
     "clinical": ("hip_flexion", "hip_adduction", "hip_rotation"),
     "yaw_roll_pitch": ("hip_rotation", "hip_adduction", "hip_flexion"),
 }
-"""Order of the three hip joints from the pelvis outwards: ISB and gait laboratories, or humanoids."""
 
 
-def joint(side: str, movement: str) -> str:
+def joint(side: Side, movement: Movement) -> str:
     """The joint's name, e.g. `left_knee_flexion`."""
     return f"{side}_{movement}"

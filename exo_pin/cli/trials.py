@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from exo_pin.anatomy.names import Sex
 from exo_pin.cli import plate_options
 from exo_pin.errors import DescriptionError, FormatError
 
@@ -177,7 +178,7 @@ def _solved(
     markers: str | None,
     names: tuple[tuple[str, str], ...],
     mass: float | None,
-    sex: str,
+    sex: Sex,
 ) -> Reconstruction:
     from exo_pin.markers import load_walk
 

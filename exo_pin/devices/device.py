@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, Movement
 from exo_pin.devices.actuator import CHOSEN, RANGES, Actuator
 from exo_pin.errors import DescriptionError, UnknownNameError
 
@@ -195,7 +195,7 @@ def _in_order(joints: Iterable[str]) -> tuple[str, ...]:
     return tuple(joint for joint in JOINTS if joint in given)
 
 
-def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
+def _actuator(movement: Movement, given: Mapping[str, Actuator]) -> Actuator:
     for name in given:
         if name not in CHOSEN:
             raise UnknownNameError("movement", name, CHOSEN)

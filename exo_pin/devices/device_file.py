@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, Movement
 from exo_pin.devices.actuator import CHOSEN, Actuator
 from exo_pin.devices.device import Device
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
@@ -108,7 +108,7 @@ def _with_sides(names: list[str]) -> tuple[str, ...]:
     return tuple(spread)
 
 
-def _actuator(movement: str, numbers: object) -> Actuator:
+def _actuator(movement: Movement, numbers: object) -> Actuator:
     if movement not in CHOSEN:
         raise UnknownNameError("movement", movement, CHOSEN)
     slides = movement.startswith("pelvis_")

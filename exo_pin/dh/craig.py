@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import SIDES
+from exo_pin.anatomy.names import SIDES, HipOrder, Side
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
@@ -69,7 +69,7 @@ _TABLES: dict[tuple[str, str], tuple[tuple[int, str, int, str], ...]] = {
 """alpha_{i-1} [deg], a_{i-1}, theta offset [deg], d of each row; lengths by the name of a leg's size."""
 
 
-def table(body: Body, side: str, *, hip_order: str = "clinical") -> list[DHRow]:
+def table(body: Body, side: Side, *, hip_order: HipOrder = "clinical") -> list[DHRow]:
     """Craig's modified D-H table of one leg of this body; frame 0 lies at the hip centre.
 
     Raises:
@@ -84,7 +84,7 @@ def table(body: Body, side: str, *, hip_order: str = "clinical") -> list[DHRow]:
     ]
 
 
-def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") -> dict[str, Array]:
+def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical") -> dict[str, Array]:
     """Poses by Craig's table; arguments and result as those of `recursion`."""
     q = np.asarray(q, dtype=float)
     poses: dict[str, Array] = {}
@@ -97,7 +97,7 @@ def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") ->
     return poses | soles(body, poses)
 
 
-def ends(body: Body, side: str, *, hip_order: str = "clinical") -> tuple[Array, Array]:
+def ends(body: Body, side: Side, *, hip_order: HipOrder = "clinical") -> tuple[Array, Array]:
     """What stands before and behind the table: T_pelvis_0 and T_6_foot (4, 4), the frame on the sole."""
     rows = table(body, side, hip_order=hip_order)
     last = _product(body, side, rows, np.zeros(6), hip_order)[-1]
@@ -106,7 +106,7 @@ def ends(body: Body, side: str, *, hip_order: str = "clinical") -> tuple[Array, 
     return _base(body, side, hip_order), np.linalg.inv(last) @ sole
 
 
-def _base(body: Body, side: str, hip_order: str) -> Array:
+def _base(body: Body, side: Side, hip_order: HipOrder) -> Array:
     """T_pelvis_0: frame 0 lies at the hip centre."""
     T = np.eye(4)
     T[:3, :3] = _BASE_FRAMES[hip_order, side]
@@ -114,7 +114,7 @@ def _base(body: Body, side: str, hip_order: str) -> Array:
     return T
 
 
-def _product(body: Body, side: str, rows: list[DHRow], q: Array, hip_order: str) -> list[Array]:
+def _product(body: Body, side: Side, rows: list[DHRow], q: Array, hip_order: HipOrder) -> list[Array]:
     """Poses of the D-H frames 1 to 6 in the pelvis."""
     T = _base(body, side, hip_order)
     poses = []
@@ -136,7 +136,7 @@ def _craig(row: DHRow, angle: Array) -> Array:
     return T
 
 
-def _places(body: Body, side: str) -> list[Array]:
+def _places(body: Body, side: Side) -> list[Array]:
     """Where the six joints of a leg are at q = 0, as frames parallel to the pelvis."""
     leg = body.leg(side)
     y = (1 if side == "left" else -1) * body.hip_width / 2

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import MOVEMENTS, SIDES
+from exo_pin.anatomy.names import MOVEMENTS, SIDES, HipOrder, Side
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.recursion import recursion
@@ -18,7 +18,7 @@ _SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
 
 
 def of_device(
-    body: Body, angles: Mapping[str, Array], *, hip_order: str = "clinical", witness: Witness = recursion
+    body: Body, angles: Mapping[str, Array], *, hip_order: HipOrder = "clinical", witness: Witness = recursion
 ) -> dict[str, Array]:
     """Poses of a device, from the stand that its slides move on (the pelvis, if it has none).
 
@@ -46,7 +46,7 @@ def of_device(
     return {name: slid @ T for name, T in poses.items()}
 
 
-def _toe(body: Body, side: str, angle: Array) -> Array:
+def _toe(body: Body, side: Side, angle: Array) -> Array:
     """T_sole_toe: at the ball of the foot, on the sole; toes up is a turn about -y."""
     leg = body.leg(side)
     T = np.zeros((*np.shape(angle), 4, 4))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES, HipOrder
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
 
-def chain(hip_order: str = "clinical") -> tuple[str, ...]:
+def chain(hip_order: HipOrder = "clinical") -> tuple[str, ...]:
     """The movements of a leg from the pelvis outwards.
 
     Raises:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import SIDES
+from exo_pin.anatomy.names import SIDES, HipOrder
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
@@ -32,7 +32,7 @@ class Link(NamedTuple):
     axis: Array
 
 
-def tree(body: Body, hip_order: str = "clinical") -> list[Link]:
+def tree(body: Body, hip_order: HipOrder = "clinical") -> list[Link]:
     """The paper's family tree: pelvis, then each leg's joints outwards; a joint's link bears its name."""
     links = []
     for side, s in zip(SIDES, (1.0, -1.0), strict=True):
@@ -52,7 +52,7 @@ def tree(body: Body, hip_order: str = "clinical") -> list[Link]:
     return links
 
 
-def recursion(body: Body, q: npt.ArrayLike, *, hip_order: str = "clinical") -> dict[str, Array]:
+def recursion(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical") -> dict[str, Array]:
     """Poses by the paper's recursion, relative to the pelvis.
 
     Args:

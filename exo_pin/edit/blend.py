@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
@@ -184,7 +185,7 @@ class _Pair(NamedTuple):
         return np.asarray(phase + bend + self.starts[k])
 
 
-def _strike(walk: Gait, side: str) -> float | None:
+def _strike(walk: Gait, side: Side) -> float | None:
     """Phase of a foot's first heel strike, if the walk knows it."""
     times = [e.time for e in walk.events if e.side == side and e.kind == "heel_strike"]
     return times[0] / walk.duration if times else None

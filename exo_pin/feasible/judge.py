@@ -8,6 +8,7 @@ import dataclasses
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
+from exo_pin.anatomy.names import Side
 from exo_pin.demand import ACCELERATION, demands
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
@@ -67,7 +68,7 @@ def feasible(
     )
 
 
-def _reach(robot: Robot, gait: Gait, side: str) -> float:
+def _reach(robot: Robot, gait: Gait, side: Side) -> float:
     """What the straightest knee reaches from hip to ankle, less what is asked, least over the walk [m]."""
     assert robot.body is not None  # load_robot made it
     leg, name = robot.body.leg(side), f"{side}_knee_flexion"

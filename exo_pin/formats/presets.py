@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.anatomy.names import Movement, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
@@ -53,7 +54,7 @@ class Preset(NamedTuple):
             for movement, sign in zip(MOVEMENTS, self.signs, strict=True)
         }
 
-    def column(self, side: str, movement: str) -> str:
+    def column(self, side: Side, movement: Movement) -> str:
         """What the preset calls a joint."""
         template = self.columns[MOVEMENTS.index(movement)]
         return template.format(s=side[0], S=side[0].upper(), side=side)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
@@ -43,7 +44,7 @@ class Cycles:
         contacts: Kind and side of an event -> its phases (0 to 1) in the cycles that have one such event.
     """
 
-    side: str
+    side: Side
     q: Array
     start: Array
     duration: Array
@@ -97,7 +98,7 @@ class Cycles:
         return Gait(T * np.arange(len(q)) / len(q), q, base=base, events=events, periodic=True, source=source)
 
 
-def cycles(gait: Gait, side: str = "left", *, points: int = POINTS) -> Cycles:
+def cycles(gait: Gait, side: Side = "left", *, points: int = POINTS) -> Cycles:
     """Cut a walk at the heel strikes of one foot; every cycle gets the same number of points.
 
     A periodic gait is one cycle and more: it is followed around its end.
@@ -162,7 +163,7 @@ def _closed(y: Array) -> Array:
     return np.asarray(y[:-1] - share * (y[-1] - y[0]))
 
 
-def _why_none(walk: Gait, spans: tuple[Stride, ...], side: str) -> str:
+def _why_none(walk: Gait, spans: tuple[Stride, ...], side: Side) -> str:
     """What speaks against every stride."""
     if spans:
         return spans[0].why

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError, UnknownNameError
 
@@ -35,8 +36,8 @@ class Event:
     """
 
     time: float
-    kind: str
-    side: str
+    kind: EventKind
+    side: Side
     source: str = ""
 
     def __post_init__(self) -> None:
@@ -54,7 +55,7 @@ def between(times: Sequence[float], start: float, end: float) -> Sequence[float]
     return times[bisect_right(times, start) : bisect_left(times, end)]
 
 
-def stance(time: Array, events: Sequence[Event], side: str, *, duration: float, periodic: bool) -> Mask:
+def stance(time: Array, events: Sequence[Event], side: Side, *, duration: float, periodic: bool) -> Mask:
     """Whether a foot is on the ground: from its heel strike until its toe-off.
 
     Args:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
@@ -95,7 +96,7 @@ def candidates(
     return sorted(events, key=lambda event: event.time)
 
 
-def _turns(time: Array, y: Array, side: str, periodic: bool, smallest: float) -> list[float]:
+def _turns(time: Array, y: Array, side: Side, periodic: bool, smallest: float) -> list[float]:
     """Times of the prominent maxima of y."""
     excursion = _excursion(time, y, smallest)
     if excursion < smallest:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import curves, rigid
@@ -210,7 +211,7 @@ class Gait:
         events = (replace(event, time=start + f * (event.time - start)) for event in self.events)
         return replace(self, time=start + f * (self.time - start), events=tuple(events))
 
-    def stance(self, side: str) -> Mask:
+    def stance(self, side: Side) -> Mask:
         """`(n,)` whether the foot is on the ground, from the events: heel strike until toe-off.
 
         Raises:

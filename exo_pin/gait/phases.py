@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait.gait import Gait
 
@@ -23,7 +24,7 @@ PHASES = {
 _SPANS = {("heel_strike", "toe_off"): (0.0, 62.0), ("toe_off", "heel_strike"): (62.0, 100.0)}
 
 
-def percent(gait: Gait, side: str) -> Array:
+def percent(gait: Gait, side: Side) -> Array:
     """Percent (n,) of the foot's cycle: stance is stretched to 0 .. 62, swing to 62 .. 100.
 
     So a recording shorter than a stride still has phases. NaN where no whole stance or swing surrounds a
@@ -43,7 +44,7 @@ def percent(gait: Gait, side: str) -> Array:
     return share
 
 
-def masks(gait: Gait, side: str) -> dict[str, Mask]:
+def masks(gait: Gait, side: Side) -> dict[str, Mask]:
     """Which samples (n,) belong to each phase of a foot; none where events are missing."""
     share = percent(gait, side)
     with np.errstate(invalid="ignore"):  # NaN belongs to no phase

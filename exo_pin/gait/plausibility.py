@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
 
@@ -50,7 +51,7 @@ def _sparse(time: Array) -> str:
     return f"samples are {apart:.3g} s apart: is the time in seconds?" if apart > SLOWEST else ""
 
 
-def _backwards(q: Array, side: str) -> str:
+def _backwards(q: Array, side: Side) -> str:
     knee = q[:, JOINTS.index(f"{side}_knee_flexion")]
     share = float((knee < BACKWARDS).mean())
     if share < LONG:

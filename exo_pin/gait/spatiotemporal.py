@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event, between
@@ -110,11 +111,11 @@ class _Walk:
         for event in self.events:
             self._times.setdefault((event.kind, event.side), []).append(event.time)
 
-    def times(self, kind: str, side: str) -> Sequence[float]:
+    def times(self, kind: EventKind, side: Side) -> Sequence[float]:
         """When the foot does that."""
         return self._times.get((kind, side), [])
 
-    def at(self, side: str, t: float) -> Array:
+    def at(self, side: Side, t: float) -> Array:
         """Where the heel is, `(2,)`."""
         return np.array([np.interp(t, self.time, path) for path in self._paths[side]])
 
@@ -142,7 +143,7 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     return np.zeros(2) if slower else velocity
 
 
-def _spans(walk: _Walk, side: str) -> Iterator[tuple[float, float]]:
+def _spans(walk: _Walk, side: Side) -> Iterator[tuple[float, float]]:
     """The parts of each stance in which the foot rests flat."""
     mine = [event for event in walk.events if event.side == side]
     for strike, off in pairwise(mine):

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.event import EVENT_KINDS, Event, between
 
@@ -63,14 +64,14 @@ class Feet(NamedTuple):
 class Step(NamedTuple):
     """One foot from heel strike to heel strike."""
 
-    side: str
+    side: Side
     strike: float
     off: float
     end: float
     why: str
 
 
-def steps_of(feet: Feet, first: Array, events: list[Event], side: str) -> list[Step]:
+def steps_of(feet: Feet, first: Array, events: list[Event], side: Side) -> list[Step]:
     """Every span between two strikes of a foot, and what speaks against it."""
     mine: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}
     other: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.event import between
 from exo_pin.gait.gait import Gait
@@ -44,7 +45,7 @@ class Stride(NamedTuple):
         why: Why it is not counted as a stride; empty where it is.
     """
 
-    side: str
+    side: Side
     start: float
     end: float
     why: str = ""
@@ -55,7 +56,7 @@ class Stride(NamedTuple):
         return self.end - self.start
 
 
-def strides(gait: Gait, side: str) -> tuple[Stride, ...]:
+def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
     """Every span between two heel strikes of a foot, with the reason where it is not a stride of a walk.
 
     No stride is: a span in which the person stands still, one longer than three median strides, one in which

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
@@ -51,7 +52,7 @@ def lowest_corners(positions: Array) -> dict[str, Array]:
     return {side: positions[:, mine[side], 2].min(axis=1) for side in SIDES}
 
 
-def samples(intervals: Intervals, side: str, time: Array) -> Mask:
+def samples(intervals: Intervals, side: Side, time: Array) -> Mask:
     """`(n,)` whether the side stands at times [s] after the gait's first sample."""
     inside = np.zeros(len(time), dtype=bool)
     moment = time + ON_A_SAMPLE  # an event that is meant to lie on a sample may miss it by rounding
@@ -60,7 +61,7 @@ def samples(intervals: Intervals, side: str, time: Array) -> Mask:
     return inside
 
 
-def _between(gait: Gait, side: str) -> tuple[tuple[float, float], ...]:
+def _between(gait: Gait, side: Side) -> tuple[tuple[float, float], ...]:
     mine = [(event.time - float(gait.time[0]), event.kind) for event in gait.events if event.side == side]
     spans = [(a, b) for (a, kind), (b, _) in pairwise(mine) if kind == "heel_strike"]
     first, last = mine[0], mine[-1]

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES, Body
+from exo_pin.anatomy.names import Sex
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
 from exo_pin.gait.rigid import nearest_pose
@@ -173,7 +174,7 @@ def rigid_fit(places: Mapping[str, Array], paths: Mapping[str, Array]) -> Array:
     return out
 
 
-def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: str) -> Body:
+def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: Sex) -> Body:
     """The body with these sizes; what markers do not tell follows from the stature they suggest.
 
     Raises:

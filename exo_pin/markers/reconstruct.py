@@ -12,6 +12,7 @@ import numpy as np
 
 from exo_pin import signals
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import Sex
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, load_markers
@@ -70,7 +71,7 @@ def load_walk(
     markers: str | None = None,
     mapping: Mapping[str, str] = MappingProxyType({}),
     mass: float | None = None,
-    sex: str = "male",
+    sex: Sex = "male",
 ) -> Reconstruction:
     """Read a marker trial (.trc, .c3d) and make a walk of it; other arguments as in `reconstruct`.
 
@@ -102,7 +103,7 @@ def reconstruct(
     static: Markers | None = None,
     markers: str | None = None,
     mass: float | None = None,
-    sex: str = "male",
+    sex: Sex = "male",
 ) -> Reconstruction:
     """Joint angles and pelvis from markers by least squares, on a body scaled to them.
 

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.gait.rigid import about
@@ -45,7 +46,7 @@ class RobotLeg:
         T: Pose of the foot's link (4, 4).
     """
 
-    side: str
+    side: Side
     foot: str
     joints: tuple[str, ...]
     movements: tuple[str, ...]
@@ -101,7 +102,7 @@ class RobotLeg:
 
 
 def robot_leg(
-    robot: Robot, side: str, foot: str, joints: tuple[str, ...], stand: Array, turn: Array
+    robot: Robot, side: Side, foot: str, joints: tuple[str, ...], stand: Array, turn: Array
 ) -> RobotLeg:
     """Read a leg.
 

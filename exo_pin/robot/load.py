@@ -12,6 +12,7 @@ import pinocchio as pin
 
 from exo_pin import description, devices
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import Base, HipOrder
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.robot import urdf_parser
@@ -22,8 +23,8 @@ def load_robot(
     body: Body | None = None,
     *,
     device: str | devices.Device = "exo12",
-    hip_order: str = "clinical",
-    base: str = "fixed",
+    hip_order: HipOrder = "clinical",
+    base: Base = "fixed",
 ) -> Robot:
     """The exoskeleton for a body.
 
@@ -53,9 +54,9 @@ def load_robot(
 def load_urdf(
     source: str | Path,
     *,
-    base: str = "fixed",
+    base: Base = "fixed",
     placement: npt.ArrayLike | None = None,
-    hip_order: str = "clinical",
+    hip_order: HipOrder = "clinical",
     path: str | Path | None = None,
 ) -> Robot:
     """A robot from any URDF.

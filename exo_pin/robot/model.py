@@ -15,6 +15,7 @@ import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip import reorder
+from exo_pin.anatomy.names import Base, HipOrder
 from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
@@ -56,9 +57,9 @@ class Robot:
     velocity: Array
     effort: Array
     placement: Array
-    base: str = "fixed"
+    base: Base = "fixed"
     body: Body | None = None
-    hip_order: str = "clinical"
+    hip_order: HipOrder = "clinical"
     device: Device | None = None
     path: Path | None = None
 

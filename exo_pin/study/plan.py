@@ -7,6 +7,7 @@ from pathlib import Path
 
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import Sex
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
@@ -54,7 +55,7 @@ def plan(
     *,
     conditions: Sequence[Conditions] = GRANTED,
     mass: float | None = None,
-    sex: str = "male",
+    sex: Sex = "male",
 ) -> list[Case]:
     """The normative walk: every speed on every stature, body by body.
 
@@ -81,7 +82,7 @@ def plan(
     ]
 
 
-def bodies(of: Iterable[float], *, mass: float | None = None, sex: str = "male") -> list[Body]:
+def bodies(of: Iterable[float], *, mass: float | None = None, sex: Sex = "male") -> list[Body]:
     """People of average proportions.
 
     Args:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from exo_pin.anatomy.names import Sex
 from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
 
@@ -63,7 +64,7 @@ class Row:
     duration_s: float
     stature_m: float
     mass_kg: float
-    sex: str
+    sex: Sex
     device: str
     motors: int
     pelvis: str

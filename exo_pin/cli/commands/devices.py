@@ -6,6 +6,7 @@ import argparse
 import math
 from typing import Any
 
+from exo_pin.anatomy.names import Movement
 from exo_pin.cli import show
 from exo_pin.devices import DEVICES, Device, find, movement_of
 
@@ -101,7 +102,7 @@ def _span(pair: tuple[float, float] | None, scale: float, unit: str) -> str:
     return "-" if pair is None else f"{scale * pair[0]:g} .. {scale * pair[1]:g} {unit}"
 
 
-def _row(device: Device, movement: str) -> list[str]:
+def _row(device: Device, movement: Movement) -> list[str]:
     actuator = device.actuators[movement]
     slide = movement.startswith("pelvis_")
     force, speed = ("N", "m/s") if slide else ("N m", "rad/s")
@@ -109,7 +110,7 @@ def _row(device: Device, movement: str) -> list[str]:
     return [movement, effort, f"{actuator.velocity:g} {speed}", _range(device, movement, slide=slide)]
 
 
-def _range(device: Device, movement: str, *, slide: bool) -> str:
+def _range(device: Device, movement: Movement, *, slide: bool) -> str:
     if movement not in device.ranges:
         return "the body's"
     pair = device.ranges[movement]

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.cli import options
 from exo_pin.dh import DHRow, ends, table
@@ -33,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 class _Table(NamedTuple):
     """One leg's table, with T_pelvis_0 before it and T_6_foot behind it."""
 
-    side: str
+    side: Side
     rows: Sequence[DHRow]
     base: Array
     tool: Array

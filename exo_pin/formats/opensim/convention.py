@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats.opensim.osim_joint import Joint
@@ -115,7 +116,7 @@ def habit_of(knee: int) -> str:
     return next(name for name in OPENSIM if PRESETS[name].knee == knee)
 
 
-def hip_angles(hip: Joint, side: str, values: Mapping[str, Array]) -> Array:
+def hip_angles(hip: Joint, side: Side, values: Mapping[str, Array]) -> Array:
     """`(n, 3)` flexion, adduction, rotation [rad], of a hip whose axes come in another order."""
     at_rest = hip.placed({name: np.zeros(1) for name in hip.coordinates})[0, :3, :3]
     mirrored = 1 if side == "right" else -1

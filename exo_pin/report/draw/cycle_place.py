@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, strides
 from exo_pin.report.draw import panels, svg
@@ -50,7 +51,7 @@ class Place:
         return np.asarray(np.interp(self.moments, self.gait.time, values, period=period).mean(axis=0))
 
 
-def place(gait: Gait, side: str) -> Place:
+def place(gait: Gait, side: Side) -> Place:
     """Over the cycle of a foot where the walk has a whole one, else over time."""
     spans = [span for span in strides(gait, side) if not span.why]
     if not spans:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
@@ -96,7 +97,7 @@ def errors(compared: Comparison) -> tuple[Drawing, ...]:
     return tuple(drawings)
 
 
-def joints(compared: Comparison, side: str) -> tuple[Drawing, ...]:
+def joints(compared: Comparison, side: Side) -> tuple[Drawing, ...]:
     """A leg's joints in every device that moves them, before the recorded angles (black) [deg]."""
     drawings = []
     for movement in MOVEMENTS:
@@ -130,7 +131,7 @@ def _travel(walk: Walk) -> Array:
 
 def _drawn(
     compared: Comparison,
-    side: str,
+    side: Side,
     name: str,
     title: str,
     series: dict[str, Array],

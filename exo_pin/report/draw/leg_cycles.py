@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, cycles
@@ -26,7 +27,7 @@ class LegCycle:
         note: How the curve was made.
     """
 
-    side: str
+    side: Side
     percent: Array
     q: Array
     sd: Array | None
@@ -39,7 +40,7 @@ def legs(gait: Gait) -> tuple[LegCycle, ...]:
     return tuple(leg for leg in (_leg(gait, side) for side in SIDES) if leg is not None)
 
 
-def _leg(gait: Gait, side: str) -> LegCycle | None:
+def _leg(gait: Gait, side: Side) -> LegCycle | None:
     columns = [JOINTS.index(f"{side}_{movement}") for movement in MOVEMENTS]
     try:
         found = cycles(gait, side)
@@ -57,7 +58,7 @@ def _leg(gait: Gait, side: str) -> LegCycle | None:
     )
 
 
-def _estimated(gait: Gait, side: str, columns: list[int]) -> LegCycle | None:
+def _estimated(gait: Gait, side: Side, columns: list[int]) -> LegCycle | None:
     """The whole recording, placed in the cycle by one heel strike and twice the step time."""
     strikes = {s: [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", s)] for s in SIDES}
     if not (strikes["left"] and strikes["right"]):
@@ -80,7 +81,7 @@ def _estimated(gait: Gait, side: str, columns: list[int]) -> LegCycle | None:
     )
 
 
-def _stance(gait: Gait, side: str, stride: float) -> float:
+def _stance(gait: Gait, side: Side, stride: float) -> float:
     """Toe-off in percent of the stride: mean over the heel strikes that a toe-off follows."""
     mine = [(e.time, e.kind) for e in gait.events if e.side == side]
     if gait.periodic:

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.report.document.blocks import Drawing
@@ -36,7 +37,7 @@ def stances(gait: Gait) -> tuple[Span, ...]:
     return tuple(spans)
 
 
-def stance_intervals(gait: Gait, side: str) -> list[tuple[float, float]]:
+def stance_intervals(gait: Gait, side: Side) -> list[tuple[float, float]]:
     """From, to [s] of a foot's contacts within the walk, by its events; cut at the walk's ends."""
     start = float(gait.time[0])
     end = start + gait.duration

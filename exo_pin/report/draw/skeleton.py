@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
@@ -127,7 +128,7 @@ def _advance(robot: Robot, gait: Gait, rows: Index) -> tuple[Array, str]:
     return np.asarray(speed * times), how
 
 
-def chain(robot: Robot, gait: Gait, side: str) -> Array:
+def chain(robot: Robot, gait: Gait, side: Side) -> Array:
     """Trunk top, hip, knee, ankle, heel, ball, ankle `(n, 7, 3)` in the world [m]."""
     names = [f"{side}_hip_flexion", f"{side}_knee_flexion", f"{side}_ankle_inversion"]
     names += [f"{side}_{part}_{edge}" for part in ("heel", "ball") for edge in ("medial", "lateral")]

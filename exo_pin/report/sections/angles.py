@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
+from exo_pin.anatomy.names import Movement
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, normative_gait, normative_sd
 from exo_pin.report.document.blocks import Drawing, Figure, Section, Words
@@ -58,7 +59,7 @@ def charts(
 
 def _joint(
     k: int,
-    movement: str,
+    movement: Movement,
     found: Sequence[LegCycle],
     speed: str | None,
     limits: dict[str, tuple[float, float]],

@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin import crosscheck, ik
 from exo_pin.anatomy import FEET, JOINTS, MOVEMENTS
+from exo_pin.anatomy.names import Movement
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
@@ -81,5 +82,5 @@ def noisy(robot: Robot, gait: Gait, sd: float, *, damping: float = 0.0, seed: in
     return Answer(title, gait.q, robot.to_gait(track.q, gait).q, track, within)
 
 
-def _both(movement: str) -> list[int]:
+def _both(movement: Movement) -> list[int]:
     return [k for k, joint in enumerate(JOINTS) if joint.endswith(movement)]

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exo_pin.anatomy.names import Side
 from exo_pin.errors import DescriptionError
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place
 from exo_pin.viewer.meshes import solids, urdf_elements
@@ -65,7 +66,7 @@ class Turn:
     axis: tuple[float, float, float]
     kind: str
     limits: tuple[float, float] | None = None
-    side: str = ""
+    side: Side = ""
 
 
 @dataclass(frozen=True)

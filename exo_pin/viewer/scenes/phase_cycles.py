@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
 from exo_pin.viewer.scenes.scene import Interval, PhaseCycles
@@ -23,7 +24,7 @@ def cycles(gait: Gait) -> PhaseCycles:
     return PhaseCycles(side if found[side] else "", found[side])
 
 
-def _of(gait: Gait, side: str) -> tuple[Interval, ...]:
+def _of(gait: Gait, side: Side) -> tuple[Interval, ...]:
     """From, to [s] after the first sample."""
     start = float(gait.time[0])
     if not gait.periodic:

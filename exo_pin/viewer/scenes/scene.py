@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exo_pin.anatomy.names import Base, Side
 from exo_pin.viewer.drawing_commands import Command
 from exo_pin.viewer.scenes.link_nodes import Turn
 
@@ -37,7 +38,7 @@ class Chain:
     links: Mapping[str, str]
     joints: tuple[Turn, ...]
     q: str
-    base: str
+    base: Base
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class PhaseCycles:
     periodic walk reach over its ends.
     """
 
-    side: str
+    side: Side
     spans: tuple[Interval, ...]
 
 
@@ -56,7 +57,7 @@ class PhaseCycles:
 class Series:
     """One curve of a plot: a side, its column, its limits in the array's own unit."""
 
-    side: str
+    side: Side
     column: int
     lower: float
     upper: float
@@ -102,7 +103,7 @@ class Grip:
     """A foot that can be taken by the hand: its link (or frame) in the first chain, and its side."""
 
     link: str
-    side: str
+    side: Side
 
 
 @dataclass(frozen=True)

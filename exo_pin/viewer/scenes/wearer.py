@@ -14,6 +14,7 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.anatomy import JOINTS, SIDES, Body, Leg
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.viewer.drawing_commands import Command, mesh, place, translation, translucent
@@ -69,7 +70,7 @@ def wearer(body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Ar
     )
 
 
-def _limbs(links: Mapping[str, str], root: str, side: str) -> dict[str, str]:
+def _limbs(links: Mapping[str, str], root: str, side: Side) -> dict[str, str]:
     """Part of a limb -> its node."""
     arm = f"{root}/{side}_upper_arm/turn"
     return {

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.ground.placement import Placement
@@ -103,7 +104,7 @@ def _treadmill(shown: Placement, gait: Gait) -> props.Treadmill:
 
 
 def _sole(
-    robot: Robot, shown: Placement, side: str
+    robot: Robot, shown: Placement, side: Side
 ) -> tuple[tuple[float, float], tuple[float, float, float]]:
     """Length and width of a foot's sole [m] and its middle, seen from the foot's frame."""
     mine = [k for k, name in enumerate(CORNERS) if name.startswith(side)]

@@ -8,7 +8,7 @@ import pytest
 
 from exo_pin.cli import main
 
-FOLDER = Path(__file__).resolve().parents[2] / "shared" / "data"
+FOLDER = Path(__file__).resolve().parents[3] / "shared" / "data"
 FILES = sorted(path for path in FOLDER.rglob("*") if path.is_file())
 WALKS = {
     "HC036A01_static.c3d",

@@ -13,7 +13,7 @@ from exo_pin.cli import COMMANDS
 from exo_pin.gait import SPEEDS, normative_gait
 from exo_pin.robot import load_robot
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 
 

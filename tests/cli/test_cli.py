@@ -17,7 +17,7 @@ import pytest
 from exo_pin.cli import COMMANDS, main, options, show
 from exo_pin.formats import load_gait, load_poses, presets
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def run(capsys, *words):

@@ -24,7 +24,7 @@ FLAT = np.radians(3)  # fore-and-aft slope of the sole in mid-stance, the issue'
 FAST = np.radians(4)  # of the two fast speeds, whose children roll over the foot sooner: 3.9 measured
 ROLL = np.radians(4)  # sideways slope: the ankle's inversion is a weak channel
 MID_STANCE = (0.12, 0.31)  # Perry's mid-stance, as a part of the cycle
-REPOSITORY = Path(__file__).resolve().parents[1]
+REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 def turns(axis, angle):

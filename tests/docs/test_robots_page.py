@@ -11,7 +11,7 @@ from exo_pin.retarget import load
 from exo_pin.retarget.target_robots import UNFIT
 from exo_pin.retarget.target_table import looks
 
-PAGE = (Path(__file__).parent.parent / "docs" / "robots.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "robots.md").read_text("utf-8")
 
 
 def test_the_table_is_the_one_that_the_command_prints(capsys):
