@@ -7,7 +7,6 @@ import numpy as np
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
 from exo_pin.robot import Robot
-from exo_pin.robot.leg_axes import leg
 
 SOFTLY = 0.12
 """The pelvis comes down within this time before it must [s], and goes up within as much after."""
@@ -35,15 +34,15 @@ def drop(robot: Robot, feet: tuple[Array, Array], base: tuple[Array, Array], sla
     """
     needed = np.zeros(len(base[0]))
     for k, foot in enumerate(FEET):
-        limb = leg(robot, foot)
-        if limb is None:
+        leg = robot.leg(foot)
+        if leg is None:
             continue
-        hip = np.linalg.inv(robot.placement)[:3] @ [*limb.hip, 1.0]  # in the pelvis
+        hip = np.linalg.inv(robot.placement)[:3] @ [*leg.hip, 1.0]  # in the pelvis
         old, new = (
-            T[:, k, :3, :3] @ limb.ankle_in_frame + T[:, k, :3, 3] - B[:, :3, :3] @ hip - B[:, :3, 3]
+            T[:, k, :3, :3] @ leg.ankle_in_frame + T[:, k, :3, 3] - B[:, :3, :3] @ hip - B[:, :3, 3]
             for T, B in zip(feet, base, strict=True)
         )
-        longest = np.maximum(np.linalg.norm(old, axis=1) + SAME, limb.reach - slack)
+        longest = np.maximum(np.linalg.norm(old, axis=1) + SAME, leg.reach - slack)
         within = longest**2 - new[:, 0] ** 2 - new[:, 1] ** 2
         down = np.where(within > 0, -new[:, 2] - np.sqrt(np.maximum(within, 0.0)), DEEPEST)
         needed = np.maximum(needed, np.where(np.linalg.norm(new, axis=1) > longest, down, 0.0))

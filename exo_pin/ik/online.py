@@ -18,10 +18,9 @@ from exo_pin.ik.least_squares.single_sample import descend
 from exo_pin.ik.leg.scalar import Formula, formula
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.solvers import NEARLY, closed_form_of
-from exo_pin.ik.subtree import limbs
 from exo_pin.ik.targets import Goal, pose_array
 from exo_pin.robot import Robot
-from exo_pin.robot.leg_axes import AXES, LegAxes, leg
+from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 
 asarray, forward = np.asarray, pin.framesForwardKinematics  # looked up once: this is the inner loop
 
@@ -77,8 +76,8 @@ class Online:
         self._formulas = [solve for solve in formulas if solve is not None]
         self._exact = len(self._formulas) == len(formulas)
         self._columns = _together(np.concatenate([own.columns for own in self._legs]))
-        self._limbs = [limbs(robot, (name,), base_moves=False)[0] for name in frames]
-        self._limb_data = {limb.frames[0]: limb.model.createData() for limb in self._limbs}
+        self._limbs = [robot.subtree((name,)) for name in frames]
+        self._limb_data = {subtree.frames[0]: subtree.model.createData() for subtree in self._limbs}
         first = robot.nq - len(robot.joints)
         speeds = robot.velocity[np.concatenate([own.columns for own in self._legs]) - first]
         self._largest = None if dt is None else speeds * dt
@@ -133,7 +132,7 @@ class Online:
 
     def _iterate(self, targets: list[list[float]]) -> bool:
         """A few damped steps per leg: from the last answer, then from the nearest ideal leg's."""
-        for j, (limb, own, target) in enumerate(zip(self._limbs, self._legs, targets, strict=True)):
+        for j, (subtree, own, target) in enumerate(zip(self._limbs, self._legs, targets, strict=True)):
             T = np.array(target).reshape(4, 4)
             if not np.isfinite(T).all():
                 return False
@@ -144,15 +143,15 @@ class Online:
             if near is not None:
                 seeds.append(np.array(formula(near, own.lower, own.upper)(target)))
             for seed in seeds:
-                answer = descend(limb, self._limb_data[own.frame], seed, [goal], 0, self._settings)
+                answer = descend(subtree, self._limb_data[own.frame], seed, [goal], 0, self._settings)
                 if answer.converged:
                     break
-            self._trial[AXES * j : AXES * (j + 1)] = answer.q
+            self._trial[LEG_JOINTS * j : LEG_JOINTS * (j + 1)] = answer.q
         return self._good(targets)
 
 
 def _own_leg(robot: Robot, frame: str) -> LegAxes:
-    own = leg(robot, frame)
+    own = robot.leg(frame)
     if own is None:
         raise DescriptionError(f"{frame} is not on a leg of six revolute joints; use ik.solve for it")
     return own
@@ -172,7 +171,7 @@ def _bare_legs(legs: Sequence[LegAxes]) -> Any:
     model = pin.Model()
     for own in legs:
         parent, before = 0, np.zeros(3)
-        for j in range(AXES):
+        for j in range(LEG_JOINTS):
             place = pin.SE3(np.eye(3), own.points[j] - before)
             joint = pin.JointModelRevoluteUnaligned(own.axes[j])
             parent, before = model.addJoint(parent, joint, place, f"{own.frame}_{j}"), own.points[j]

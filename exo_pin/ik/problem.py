@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import weakref
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -12,11 +11,8 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
-from exo_pin.ik.subtree import Limb, limbs
 from exo_pin.ik.targets import Goal, Target, check, pose_array
-from exo_pin.robot import Robot
-
-_LIMBS: weakref.WeakKeyDictionary[Robot, dict[object, list[Limb]]] = weakref.WeakKeyDictionary()
+from exo_pin.robot import Robot, Subtree
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +23,7 @@ class Problem:
         robot: The robot.
         goals: One per target frame, seen from the robot at its own placement.
         n: Number of samples.
-        limbs: Independent groups of frames.
+        subtrees: The joints that are solved for, one subtree for each group of frames that share joints.
         rest: Configuration (nq,) or (n, nq) that unused joints keep (and a held floating base).
         seed: Start (nq,), or one per sample (n, nq).
     """
@@ -35,7 +31,7 @@ class Problem:
     robot: Robot
     goals: tuple[Goal, ...]
     n: int
-    limbs: tuple[Limb, ...]
+    subtrees: tuple[Subtree, ...]
     rest: Array
     seed: Array
 
@@ -44,13 +40,13 @@ class Problem:
         """Names of the target frames."""
         return tuple(goal.frame for goal in self.goals)
 
-    def goals_of(self, limb: Limb) -> list[Goal]:
-        """The goals of one limb, in the order of its frames."""
-        return [self.goals[f] for f in self.places_of(limb)]
+    def goals_of(self, subtree: Subtree) -> list[Goal]:
+        """The goals of one subtree, in the order of its frames."""
+        return [self.goals[f] for f in self.places_of(subtree)]
 
-    def places_of(self, limb: Limb) -> list[int]:
-        """Where the limb's frames stand among the target frames."""
-        return [self.frames.index(name) for name in limb.frames]
+    def places_of(self, subtree: Subtree) -> list[int]:
+        """Where the subtree's frames stand among the target frames."""
+        return [self.frames.index(name) for name in subtree.frames]
 
 
 def problem(
@@ -66,12 +62,12 @@ def problem(
     carry: Array | None = None if held is None else np.asarray(robot.placement @ np.linalg.inv(held))
     goals, n = check(robot, targets, carry)
     base_moves = robot.base == "floating" and held is None
-    groups = _groups(robot, tuple(goal.frame for goal in goals), base_moves)
+    groups = robot.subtrees(tuple(goal.frame for goal in goals), base_moves=base_moves)
     rest, seed = _start(robot, q0, n, groups)
     if robot.base == "floating" and held is not None:
         rest = np.broadcast_to(rest, (n, robot.nq)).copy()
         rest[:, :7] = [pin.SE3ToXYZQUAT(pin.SE3(T)) for T in np.broadcast_to(held, (n, 4, 4))]
-    return Problem(robot, tuple(goals), n, tuple(groups), rest, seed)
+    return Problem(robot, tuple(goals), n, groups, rest, seed)
 
 
 def _base(base: npt.ArrayLike) -> Array:
@@ -81,15 +77,9 @@ def _base(base: npt.ArrayLike) -> Array:
     return pose_array("base", T)
 
 
-def _groups(robot: Robot, frames: tuple[str, ...], base_moves: bool) -> list[Limb]:
-    known = _LIMBS.setdefault(robot, {})
-    key = (frames, base_moves)
-    if key not in known:
-        known[key] = limbs(robot, frames, base_moves=base_moves)
-    return known[key]
-
-
-def _start(robot: Robot, q0: npt.ArrayLike | None, n: int, groups: list[Limb]) -> tuple[Array, Array]:
+def _start(
+    robot: Robot, q0: npt.ArrayLike | None, n: int, groups: tuple[Subtree, ...]
+) -> tuple[Array, Array]:
     """What the unused joints keep, and where the iteration starts: mid-range unless q0 says otherwise."""
     if q0 is not None:
         q = np.asarray(q0, dtype=float)
@@ -102,9 +92,9 @@ def _start(robot: Robot, q0: npt.ArrayLike | None, n: int, groups: list[Limb]) -
     joints = rest[robot.nq - len(robot.joints) :]
     joints[:] = np.clip(joints, robot.lower, robot.upper)
     seed = rest.copy()
-    for limb in groups:
-        middle = limb.middle
-        if limb.floats:
+    for subtree in groups:
+        middle = subtree.middle
+        if subtree.floating:
             middle[:7] = rest[:7]
-        seed[limb.q] = middle
+        seed[subtree.columns] = middle
     return rest, seed

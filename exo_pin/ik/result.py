@@ -1,4 +1,4 @@
-"""Answers of inverse kinematics: `Solution` for one sample, `Track` for many."""
+"""Results of inverse kinematics: `Track`, `Solution`, and the buffer that solvers fill."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.arrays import Array, Index, Mask
+from exo_pin.ik.problem import Problem
 
-AT_LIMIT = 1e-9
+SOLVED_BY = ("closed_form", "dls")
+"""What may have answered a sample; the later one counts where legs differ."""
+_AT_LIMIT = 1e-9
 """A joint this close to its limit lies on it [rad]: rounding only."""
 
 
@@ -56,7 +59,7 @@ class Track:
     @cached_property
     def active_limits(self) -> Mask:
         """Which joints lie on a limit (n, nq)."""
-        return (self.q - self.lower <= AT_LIMIT) | (self.upper - self.q <= AT_LIMIT)
+        return (self.q - self.lower <= _AT_LIMIT) | (self.upper - self.q <= _AT_LIMIT)
 
     @property
     def answered_by(self) -> list[str]:
@@ -103,3 +106,54 @@ class Solution:
     active_limits: Mask
     reach_slack: Array
     solver: str
+
+
+@dataclass(frozen=True, eq=False)
+class SolutionBuffer:
+    """What the solvers fill in, subtree by subtree.
+
+    Attributes:
+        q: Configurations (n, nq).
+        errors: Distance and angle of each frame (2, n, F).
+        steps: Steps spent on each sample (n,).
+        solver: Index into `SOLVED_BY` (n,).
+        slack: How far each target is inside the leg's reach (n, F) [m]; NaN for frames that no leg carries.
+    """
+
+    q: Array
+    errors: Array
+    steps: Index
+    solver: npt.NDArray[np.int8]
+    slack: Array
+
+    @classmethod
+    def blank(cls, task: Problem) -> SolutionBuffer:
+        """Unused joints at rest, everything else empty."""
+        n = task.n
+        q = np.empty((n, task.robot.nq))
+        q[:] = task.rest
+        errors = np.full((2, n, len(task.frames)), np.nan)
+        room = np.full((n, len(task.frames)), np.nan)
+        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), room)
+
+    def track(self, task: Problem, tolerance: float) -> Track:
+        """The finished answer."""
+        lower, upper = np.full(task.robot.nq, -np.inf), np.full(task.robot.nq, np.inf)
+        joints = slice(task.robot.nq - len(task.robot.joints), None)
+        lower[joints], upper[joints] = task.robot.lower, task.robot.upper
+        asked = np.array([goal.R is not None for goal in task.goals])
+        converged = (self.errors[0] <= tolerance).all(axis=1)
+        converged &= (self.errors[1][:, asked] <= tolerance).all(axis=1)
+        return Track(
+            frames=task.frames,
+            q=self.q,
+            position_error=self.errors[0],
+            rotation_error=self.errors[1],
+            iterations=self.steps,
+            converged=converged,
+            reach_slack=self.slack,
+            solver=self.solver,
+            solvers=SOLVED_BY,
+            lower=lower,
+            upper=upper,
+        )

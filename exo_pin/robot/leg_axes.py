@@ -1,20 +1,20 @@
-"""A leg read from the Robot: six axes from the pelvis to a frame, its hip centre, ankle and reach."""
+"""A leg of six revolute joints: its axes, hip centre, ankle centre and reach, read from the robot."""
 
 from __future__ import annotations
 
 import math
-import weakref
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import pinocchio as pin
 
 from exo_pin.arrays import Array, Index
-from exo_pin.robot import Robot
 
-AXES = 6
-_LEGS: weakref.WeakKeyDictionary[Robot, dict[str, LegAxes | None]] = weakref.WeakKeyDictionary()
+LEG_JOINTS = 6
+Derived = TypeVar("Derived")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +41,12 @@ class LegAxes:
 
     @cached_property
     def hip(self) -> Array:
-        """The point nearest to the first three axes (3,), the hip centre of an ideal leg."""
+        """The point nearest to the first three axes (3,), the hip centre where these meet."""
         return nearest_point(self.points[:3], self.axes[:3])
 
     @cached_property
     def ankle(self) -> Array:
-        """The point nearest to the last two axes (3,) at q = 0, the ankle centre of an ideal leg."""
+        """The point nearest to the last two axes (3,) at q = 0, the ankle centre where these meet."""
         return nearest_point(self.points[4:], self.axes[4:])
 
     @cached_property
@@ -56,7 +56,7 @@ class LegAxes:
 
     @cached_property
     def doubt(self) -> float:
-        """How far the reach may be off because the axes do not meet as an ideal leg's [m]."""
+        """How far the reach may be off because the axes do not meet exactly [m]."""
         apart = [np.linalg.norm(np.cross(self.axes[j], self.hip - self.points[j])) for j in range(3)]
         apart += [np.linalg.norm(np.cross(self.axes[j], self.ankle - self.points[j])) for j in (4, 5)]
         skew = np.linalg.norm(np.cross(self.axes[3], self.axes[4])) * self.reach
@@ -76,13 +76,19 @@ class LegAxes:
         dots = [along + swing[0] * math.cos(q) + swing[1] * math.sin(q) for q in ends]
         return math.sqrt(float(thigh @ thigh + shank @ shank - 2 * min(dots)))
 
+    def derived(self, make: Callable[[LegAxes], Derived]) -> Derived:
+        """What a function makes of this leg: made once and kept as long as the leg.
 
-def leg(robot: Robot, frame: str) -> LegAxes | None:
-    """The leg that carries a frame, or None where that is not a chain of six revolute joints."""
-    known = _LEGS.setdefault(robot, {})
-    if frame not in known:
-        known[frame] = _read(robot, frame)
-    return known[frame]
+        Args:
+            make: A function of a module, not a closure: it is the key under which its result is kept.
+        """
+        if make not in self._derived:
+            self._derived[make] = make(self)
+        return cast("Derived", self._derived[make])
+
+    @cached_property
+    def _derived(self) -> dict[Callable[[LegAxes], Any], Any]:
+        return {}
 
 
 def nearest_point(points: Array, axes: Array) -> Array:
@@ -93,18 +99,22 @@ def nearest_point(points: Array, axes: Array) -> Array:
     return np.asarray(middle + np.linalg.lstsq(across.sum(axis=0), right, rcond=1e-9)[0])
 
 
-def _read(robot: Robot, frame: str) -> LegAxes | None:
-    model, data = robot.model, robot.model.createData()
-    index = robot.frame(frame)
-    joints = [int(j) for j in model.supports[model.frames[index].parentJoint] if j > 0]
-    if robot.base == "floating":
-        joints = [j for j in joints if j != 1]
-    if len(joints) != AXES or any(model.nqs[j] != 1 for j in joints):
+def read_leg(model: Any, frame: str, index: int, joints: list[int], rest: Array) -> LegAxes | None:
+    """The leg that carries a frame, or None where its joints are not six revolute ones.
+
+    Args:
+        model: Pinocchio's model of the whole robot.
+        frame: Name of the frame.
+        index: Pinocchio's index of the frame.
+        joints: Pinocchio's indices of the joints that carry it, from the root outwards.
+        rest: Configuration (nq,) of the robot at its own placement, its joints at zero.
+    """
+    if len(joints) != LEG_JOINTS or any(model.nqs[j] != 1 for j in joints):
         return None
-    q = robot.neutral
-    pin.framesForwardKinematics(model, data, q)
-    slopes = pin.computeJointJacobians(model, data, q)
-    axes = np.array([slopes[3:, model.idx_vs[j]] for j in joints])
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, rest)
+    jacobians = pin.computeJointJacobians(model, data, rest)
+    axes = np.array([jacobians[3:, model.idx_vs[j]] for j in joints])
     if np.abs(np.linalg.norm(axes, axis=1) - 1.0).max() > 1e-9:
         return None  # a prismatic joint
     columns = np.array([model.idx_qs[j] for j in joints])

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -20,6 +21,8 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
+from exo_pin.robot.leg_axes import LegAxes, read_leg
+from exo_pin.robot.subtree import Subtree, independent_groups, read_subtree, supporting_joints
 
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _HIPS = HIP_ORDERS["clinical"]
@@ -158,6 +161,45 @@ class Robot:
             self.joints[j], float(angles[frame, j]), float(self.lower[j]), float(self.upper[j]), where=where
         )
 
+    def leg(self, frame: str) -> LegAxes | None:
+        """The leg that carries a frame; None where that is not a chain of six revolute joints.
+
+        Raises:
+            UnknownNameError: The frame is unknown.
+        """
+        if frame not in self._legs:
+            joints = sorted(self._joints_above(frame, base_moves=False))
+            self._legs[frame] = read_leg(self.model, frame, self.frame(frame), joints, self.neutral)
+        return self._legs[frame]
+
+    def subtree(self, frames: Sequence[str], *, base_moves: bool = False) -> Subtree:
+        """The joints that move any of the frames.
+
+        Args:
+            frames: Names of the frames.
+            base_moves: Whether a floating base is one of the joints; otherwise it stays at `placement`.
+
+        Raises:
+            UnknownNameError: A frame is unknown.
+        """
+        key = tuple(frames), base_moves
+        if key not in self._subtrees:
+            joints = set().union(*(self._joints_above(name, base_moves=base_moves) for name in frames))
+            floating = self.base == "floating" and 1 in joints
+            self._subtrees[key] = read_subtree(
+                self.model, key[0], joints, rest=self.neutral, floating=floating
+            )
+        return self._subtrees[key]
+
+    def subtrees(self, frames: Sequence[str], *, base_moves: bool = False) -> tuple[Subtree, ...]:
+        """One subtree for each group of frames that share joints; arguments as for `subtree`."""
+        key = tuple(frames), base_moves
+        if key not in self._groups:
+            joints = {name: self._joints_above(name, base_moves=base_moves) for name in frames}
+            groups = independent_groups(joints)
+            self._groups[key] = tuple(self.subtree(names, base_moves=base_moves) for names in groups)
+        return self._groups[key]
+
     def base_of(self, gait: Gait) -> Array | None:
         """What `base=` means for a gait on this robot: its base, or None where that stands in q already."""
         return gait.base if self.base == "fixed" else None
@@ -202,6 +244,27 @@ class Robot:
             if slide in self.joints:
                 T[..., axis, 3] = q[..., self.column(slide)]
         return T
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The attributes alone: what is derived from them is made again where a copy needs it."""
+        return {field.name: vars(self)[field.name] for field in dataclasses.fields(self)}
+
+    def _joints_above(self, frame: str, *, base_moves: bool) -> set[int]:
+        """Pinocchio's indices of the joints that move a frame."""
+        joints = supporting_joints(self.model, self.frame(frame))
+        return joints - {1} if self.base == "floating" and not base_moves else joints
+
+    @cached_property
+    def _legs(self) -> dict[str, LegAxes | None]:
+        return {}
+
+    @cached_property
+    def _subtrees(self) -> dict[tuple[tuple[str, ...], bool], Subtree]:
+        return {}
+
+    @cached_property
+    def _groups(self) -> dict[tuple[tuple[str, ...], bool], tuple[Subtree, ...]]:
+        return {}
 
     @property
     def _columns(self) -> tuple[list[int], list[int]]:

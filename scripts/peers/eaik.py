@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from exo_pin.robot.leg_axes import leg
-
 
 class Eaik:
     name = "EAIK batch"
@@ -12,7 +10,7 @@ class Eaik:
     def __init__(self, robot, tolerance):
         from eaik.IK_HP import HPRobot
 
-        self.legs = [leg(robot, f"{side}_foot") for side in ("left", "right")]
+        self.legs = [robot.leg(f"{side}_foot") for side in ("left", "right")]
         # It answers wrongly for axes that are anti-parallel, so they are turned along +x, +y, +z by hand.
         self.signs = [np.where(own.axes.sum(axis=1) < 0, -1.0, 1.0) for own in self.legs]
         self.solvers = [

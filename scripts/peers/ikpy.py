@@ -5,8 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin.robot.leg_axes import leg
-
 
 class Ikpy:
     name = "IKPy"
@@ -15,7 +13,7 @@ class Ikpy:
     def __init__(self, robot, tolerance):
         from ikpy.chain import Chain
 
-        self.legs = [leg(robot, f"{side}_foot") for side in ("left", "right")]
+        self.legs = [robot.leg(f"{side}_foot") for side in ("left", "right")]
         self.world = np.linalg.inv(robot.placement)
         self.chains = []
         with tempfile.TemporaryDirectory() as folder:

@@ -16,7 +16,6 @@ from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
-from exo_pin.robot.leg_axes import leg
 from peers import PEERS, calibrated, jobs
 from peers import plots as drawn
 from peers.tables import goals, head, reference, table, version
@@ -155,7 +154,7 @@ def ours(robot, work, budget):
 def raw(robot, work, budget):
     """The formula alone: neither the targets nor the answers are checked."""
     row = Row("exo_pin closed form alone, unchecked")
-    legs = [leg(robot, foot) for foot in jobs.FEET]
+    legs = [robot.leg(foot) for foot in jobs.FEET]
 
     def formula(job):
         q = np.empty((len(job.q), 12))

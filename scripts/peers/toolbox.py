@@ -2,15 +2,13 @@
 
 import numpy as np
 
-from exo_pin.robot.leg_axes import leg
-
 
 class Toolbox:
     name = "Robotics Toolbox ik_LM"
     package = "roboticstoolbox"
 
     def __init__(self, robot, tolerance):
-        self.legs = [leg(robot, f"{side}_foot") for side in ("left", "right")]
+        self.legs = [robot.leg(f"{side}_foot") for side in ("left", "right")]
         self.ets = [_sequence(own) for own in self.legs]
         self.tol = tolerance**2  # it is compared with half the squared error
 

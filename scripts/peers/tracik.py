@@ -5,8 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin.robot.leg_axes import leg
-
 
 class TracIk:
     name = "TRAC-IK"
@@ -15,7 +13,7 @@ class TracIk:
     def __init__(self, robot, tolerance):
         from trac_ik import TracIK
 
-        self.legs = [leg(robot, f"{side}_foot") for side in ("left", "right")]
+        self.legs = [robot.leg(f"{side}_foot") for side in ("left", "right")]
         self.world = np.linalg.inv(robot.placement)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "exo.urdf"

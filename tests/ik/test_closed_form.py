@@ -14,7 +14,6 @@ from exo_pin.ik.leg import closed_form, forward, scalar
 from exo_pin.ik.solvers import closed_form_of
 from exo_pin.kinematics import jacobian, poses
 from exo_pin.robot import load_robot, load_urdf
-from exo_pin.robot.leg_axes import leg
 
 ROUNDING = 1e-14  # [m, rad] a dozen products of numbers of size one
 POSE = 1e-12  # [m, rad] the issue's promise
@@ -56,7 +55,7 @@ def skewed(robot, joint, angle):
 def test_the_chain_agrees_with_pinocchio(robot, rng):
     q = uniform(robot, rng, 50)
     for foot in FEET:
-        own = leg(robot, foot)
+        own = robot.leg(foot)
         R, p = forward.components(
             poses(robot, q, (foot,))[:, 0, :3, :3], poses(robot, q, (foot,))[:, 0, :3, 3]
         )
@@ -98,7 +97,7 @@ def test_limits_and_straight_knees_come_back(robot, rng):
 def test_some_poses_need_the_negative_remaining_component(robot, rng):
     """A formula that takes it as positive would fail these."""
     q = uniform(robot, rng, 5000)
-    own = leg(robot, "left_foot")
+    own = robot.leg("left_foot")
     T = poses(robot, q, ("left_foot",))[:, 0]
     ankle = T[:, :3, :3] @ own.ankle_in_frame + T[:, :3, 3]
     up = np.einsum("ni,ni->n", own.hip - ankle, T[:, :3, 2])  # of the hip, as the foot sees it
@@ -135,7 +134,7 @@ def test_any_body_comes_back(order, sizes, ankle, hips, seed):
 def test_one_frame_in_plain_math_gives_what_many_frames_give(robot, rng):
     q = uniform(robot, rng, 200)
     for foot in FEET:
-        own = leg(robot, foot)
+        own = robot.leg(foot)
         ideal = closed_form_of(own)
         formula = scalar.formula(ideal, own.lower, own.upper)
         T = poses(robot, q, (foot,))[:, 0]
@@ -161,8 +160,8 @@ def test_a_leg_that_is_turned_as_a_whole_keeps_its_closed_form(robot, rng):
 
 def test_a_skewed_axis_is_noticed_and_still_answered(robot, rng):
     other = skewed(robot, "left_knee_flexion", np.radians(2.0))
-    assert closed_form_of(leg(other, "left_foot")) is None
-    assert closed_form_of(leg(other, "right_foot")) is not None
+    assert closed_form_of(other.leg("left_foot")) is None
+    assert closed_form_of(other.leg("right_foot")) is not None
     q = uniform(other, rng, 300)
     targets = feet(other, q)
     with pytest.raises(DescriptionError, match="no closed form"):
@@ -190,7 +189,7 @@ def test_no_frame_with_an_error_is_called_converged_and_none_leaves_the_limits(r
     track = ik.track(robot, {foot: T[:, k] for k, foot in enumerate(FEET)}, settings=ik.ClosedForm())
     reached = np.empty_like(T)
     for k, foot in enumerate(FEET):
-        own = leg(robot, foot)
+        own = robot.leg(foot)
         tip = forward.forward(own, track.q[:, own.columns].T)
         reached[:, k, :3, :3] = np.moveaxis(np.array(tip.R), -1, 0)
         reached[:, k, :3, 3] = np.array(tip.p).T

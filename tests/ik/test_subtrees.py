@@ -1,4 +1,4 @@
-"""Batched descent of any limb: derivatives, agreement with other solvers, limits, weights, redundancy."""
+"""Batched descent of any subtree: derivatives, agreement with other solvers, limits, weights, redundancy."""
 
 import dataclasses
 
@@ -11,16 +11,14 @@ from exo_pin.compare import Conditions, best, robot_for, walk
 from exo_pin.compare.best_motion import corners
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
-from exo_pin.ik import solvers
 from exo_pin.ik.least_squares.cost import aims, pull
+from exo_pin.ik.least_squares.residual import residual
 from exo_pin.ik.least_squares.second_order import bend
 from exo_pin.ik.least_squares.step_limit import HASTE, pace
 from exo_pin.ik.least_squares.subtree_kernel import descend
 from exo_pin.ik.problem import problem
-from exo_pin.ik.subtree import residual
-from exo_pin.ik.subtree_arrays import branches, motion
 from exo_pin.kinematics import poses
-from exo_pin.robot import load_robot
+from exo_pin.robot import Subtree, load_robot
 
 SAME = 1e-6  # rad, m: two iterations towards one flat minimum, the slower one stops its steps at 1e-10
 SLOPE = 1e-9  # central differences of step 1e-5 of values of about 1
@@ -30,7 +28,7 @@ DEVICES = ("lopes8", "planar9", "lokomat")
 
 
 def _task(device, rng, n=20):
-    """A limb with slides and two legs under points with weights and a weighted pose."""
+    """A subtree with slides and two legs under points with weights and a weighted pose."""
     robot = load_robot(device=device)
     feet = poses(load_robot(), rng.normal(0, 0.2, (n, 12)), FEET)
     local, far = rng.normal(0, 0.1, (5, 3)), rng.normal(0, 0.1, (n, 5, 3))
@@ -40,19 +38,19 @@ def _task(device, rng, n=20):
         "right_foot": ik.Pose(feet[:, 1], 1.3, 0.7),
     }
     task = problem(robot, targets, rng.normal(0, 0.2, (n, robot.nq)), None)
-    return task, task.limbs[0], task.goals_of(task.limbs[0])
+    return task, task.subtrees[0], task.goals_of(task.subtrees[0])
 
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_arrays_and_pinocchio_put_the_frames_in_the_same_places(device, rng):
-    task, limb, _ = _task(device, rng)
-    joints = branches(limb)
-    q = rng.uniform(limb.lower, limb.upper, (20, len(limb.q)))
+    task, subtree, _ = _task(device, rng)
+    joints = subtree.arrays
+    q = rng.uniform(subtree.lower, subtree.upper, (20, len(subtree.columns)))
     whole = np.zeros((20, task.robot.nq))
-    whole[:, limb.q] = q
-    expected = poses(task.robot, whole, limb.frames)
-    now = motion(joints, q.T)
-    for f in range(len(limb.frames)):
+    whole[:, subtree.columns] = q
+    expected = poses(task.robot, whole, subtree.frames)
+    now = joints.pose(q.T)
+    for f in range(len(subtree.frames)):
         R = np.einsum("abm,bc->mac", now.R[f], joints.frames[f, :3, :3])
         p = np.einsum("abm,b->ma", now.R[f], joints.frames[f, :3, 3]) + now.p[f].T
         assert np.abs(R - expected[:, f, :3, :3]).max() <= EXACT
@@ -61,10 +59,10 @@ def test_arrays_and_pinocchio_put_the_frames_in_the_same_places(device, rng):
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_slope_and_curvature_are_the_derivatives_of_the_cost(device, rng):
-    _, limb, goals = _task(device, rng)
-    joints, step = branches(limb), 1e-5
+    _, subtree, goals = _task(device, rng)
+    joints, step = subtree.arrays, 1e-5
     aimed = aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2))
-    q = rng.uniform(-0.4, 0.4, (len(limb.q), 20))
+    q = rng.uniform(-0.4, 0.4, (len(subtree.columns), 20))
     here = pull(joints, aimed, q)
     for j in range(len(q)):
         aside = np.zeros((len(q), 1))
@@ -100,25 +98,25 @@ def test_all_at_once_answers_as_one_after_the_other(device, pelvis, monkeypatch)
     recorded, conditions = walk(normative_gait().resampled(12)), Conditions(pelvis)
     robot = robot_for(find(device), recorded.robot.body, conditions)
     together = best(recorded, robot, conditions)
-    monkeypatch.setattr(solvers, "branches", lambda _: None)
+    monkeypatch.setattr(Subtree, "arrays", None)
     one_by_one = best(recorded, robot, conditions)
     assert together.q == pytest.approx(one_by_one.q, abs=SAME)
 
 
 def test_answers_keep_limits_of_each_sample_and_hold_joints_between_equal_ones(rng):
-    _, limb, goals = _task("lopes8", rng)
-    seed = rng.uniform(-0.2, 0.2, (len(limb.q), 20))
+    _, subtree, goals = _task("lopes8", rng)
+    seed = rng.uniform(-0.2, 0.2, (len(subtree.columns), 20))
     width = rng.uniform(0, 0.3, seed.shape)
     width[rng.random(seed.shape) < 0.3] = 0.0
-    out = descend(branches(limb), goals, seed, seed - width, seed + width, ik.Dls(tolerance=1e-10))
+    out = descend(subtree.arrays, goals, seed, seed - width, seed + width, ik.Dls(tolerance=1e-10))
     assert ((out.q >= seed - width) & (out.q <= seed + width)).all()
     assert np.array_equal(out.q[width == 0.0], seed[width == 0.0])
 
 
 def test_no_free_joint_has_a_slope_left_and_a_held_one_is_pushed_outwards(rng):
-    _, limb, goals = _task("lopes8", rng)
-    joints, low, high = branches(limb), limb.lower[:, None], limb.upper[:, None]
-    out = descend(joints, goals, np.zeros((len(limb.q), 20)), limb.lower, limb.upper, ik.Dls())
+    _, subtree, goals = _task("lopes8", rng)
+    joints, low, high = subtree.arrays, subtree.lower[:, None], subtree.upper[:, None]
+    out = descend(joints, goals, np.zeros((len(subtree.columns), 20)), subtree.lower, subtree.upper, ik.Dls())
     slope = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls()), out.q).slope
     inside = (out.q > low) & (out.q < high)
     assert np.abs(slope[inside]).max() < SAME
@@ -127,12 +125,12 @@ def test_no_free_joint_has_a_slope_left_and_a_held_one_is_pushed_outwards(rng):
 
 
 def test_samples_do_not_know_of_each_other(rng):
-    _, limb, goals = _task("planar9", rng)
-    seed = rng.uniform(-0.2, 0.2, (len(limb.q), 20))
-    all_of_them = descend(branches(limb), goals, seed, limb.lower, limb.upper, ik.Dls())
+    _, subtree, goals = _task("planar9", rng)
+    seed = rng.uniform(-0.2, 0.2, (len(subtree.columns), 20))
+    all_of_them = descend(subtree.arrays, goals, seed, subtree.lower, subtree.upper, ik.Dls())
     order = rng.permutation(20)[:7]
     some = descend(
-        branches(limb), [g.only(order) for g in goals], seed[:, order], limb.lower, limb.upper, ik.Dls()
+        subtree.arrays, [g.only(order) for g in goals], seed[:, order], subtree.lower, subtree.upper, ik.Dls()
     )
     assert some.q == pytest.approx(all_of_them.q[:, order], abs=SAME)
 
@@ -168,9 +166,9 @@ def test_the_motion_after_targets_out_of_reach_is_continuous(device, pelvis):
         track = ik.track(robot, feet, base=gait.base if pelvis == "recorded" else None)
         assert not track.converged.any()
         task = problem(robot, feet, None, gait.base if pelvis == "recorded" else None)
-        limb = task.limbs[0]
-        most = pace(branches(limb), task.goals_of(limb))[1:]
-        assert (np.abs(np.diff(track.q[:, limb.q], axis=0)) <= most + EXACT).all()
+        subtree = task.subtrees[0]
+        most = pace(subtree.arrays, task.goals_of(subtree))[1:]
+        assert (np.abs(np.diff(track.q[:, subtree.columns], axis=0)) <= most + EXACT).all()
         fastest.append(np.abs(np.diff(track.q, axis=0)).max() * samples)
     assert fastest[1] == pytest.approx(fastest[0], rel=0.2)  # a speed, not a jump
 
@@ -189,8 +187,8 @@ def test_the_pace_is_the_way_over_the_arm_and_the_turn():
     T[1:, 0, 3] += 0.02
     T[2:, :3, :3] = T[0, :3, :3] @ _about_y(0.1)
     task = problem(robot, {"left_foot": T}, None, None)
-    joints = branches(task.limbs[0])
-    most = pace(joints, task.goals_of(task.limbs[0]))
+    joints = task.subtrees[0].arrays
+    most = pace(joints, task.goals_of(task.subtrees[0]))
     leg = robot.body.leg("left")
     arms = np.array([np.inf, leg.thigh + leg.shank + leg.ankle_height, leg.shank + leg.ankle_height])
     assert np.isinf(most[0]).all()
@@ -206,17 +204,17 @@ def _about_y(angle):
 
 @pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])
 def test_one_sample_and_many_bend_alike(device, rng):
-    _, limb, goals = _task(device, rng) if device != "h2" else _legs(device, rng)
-    joints, data = branches(limb), limb.model.createData()
-    q = rng.uniform(-0.4, 0.4, (len(limb.q), 20))
+    _, subtree, goals = _task(device, rng) if device != "h2" else _legs(device, rng)
+    joints, data = subtree.arrays, subtree.model.createData()
+    q = rng.uniform(-0.4, 0.4, (len(subtree.columns), 20))
     rest = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2)), q).rest
     for k in range(20):
-        residual(limb, data, q[:, k], goals, k)
-        assert bend(limb, data, goals, k, (1.2, 1.0)) == pytest.approx(rest[..., k], abs=EXACT)
+        residual(subtree, data, q[:, k], goals, k)
+        assert bend(subtree, data, goals, k, (1.2, 1.0)) == pytest.approx(rest[..., k], abs=EXACT)
 
 
 def _legs(device, rng):
     robot = load_robot(device=device)
     feet = poses(load_robot(), rng.normal(0, 0.2, (20, 12)), FEET)
     task = problem(robot, {"left_foot": feet[:, 0]}, None, None)
-    return task, task.limbs[0], task.goals_of(task.limbs[0])
+    return task, task.subtrees[0], task.goals_of(task.subtrees[0])

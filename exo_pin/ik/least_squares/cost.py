@@ -1,4 +1,4 @@
-"""What the targets of a limb ask of its joints: cost, slope and curvature, for many samples at once.
+"""What the targets of a subtree ask of its joints: cost, slope and curvature, for many samples at once.
 
 Points on one rigid frame enter only through sums, however many they are: their weight W, centre c, and the
 moments B = sum w^2 d e^T and D = sum w^2 d d^T of arms d = x - c and errors e. With l_j the velocity of c
@@ -23,8 +23,8 @@ import numpy.typing as npt
 from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares.leg_kernel import turn
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.subtree_arrays import Branches, SubtreePose, motion, times
 from exo_pin.ik.targets import Goal
+from exo_pin.robot.subtree_arrays import SubtreeArrays, SubtreePose, times
 
 
 class Pull(NamedTuple):
@@ -68,10 +68,10 @@ class Aim(NamedTuple):
         return self._replace(p=self.p[..., stay], weight=self.weight[..., stay], R=R)
 
 
-def aims(limb: Branches, goals: list[Goal], part: slice, settings: Dls) -> list[Aim]:
+def aims(arrays: SubtreeArrays, goals: list[Goal], part: slice, settings: Dls) -> list[Aim]:
     """The goals of some samples, their points seen from the world at q = 0."""
     out = []
-    for goal, T in zip(goals, limb.frames, strict=True):
+    for goal, T in zip(goals, arrays.frames, strict=True):
         R = None if goal.R is None else np.ascontiguousarray(goal.R[part].transpose(1, 2, 0))
         out.append(
             Aim(
@@ -85,9 +85,9 @@ def aims(limb: Branches, goals: list[Goal], part: slice, settings: Dls) -> list[
     return out
 
 
-def pull(limb: Branches, aimed: list[Aim], q: Array) -> Pull:
+def pull(arrays: SubtreeArrays, aimed: list[Aim], q: Array) -> Pull:
     """Cost and derivatives at the configurations q (J, m)."""
-    now = motion(limb, q)
+    now = arrays.pose(q)
     count, samples = q.shape
     total = Pull(
         np.zeros(samples),
@@ -97,17 +97,17 @@ def pull(limb: Branches, aimed: list[Aim], q: Array) -> Pull:
         np.full((2, len(aimed), samples), np.nan),
     )
     for f, aim in enumerate(aimed):
-        own = np.flatnonzero(limb.moves[f])
-        turns = limb.turns[own, None]
+        own = np.flatnonzero(arrays.moves[f])
+        turns = arrays.revolute[own, None]
         spin = now.axes[:, own] * turns
-        _add_points(total, limb, now, aim, f, own, spin)
+        _add_points(total, arrays, now, aim, f, own, spin)
         if aim.R is not None:
             _add_rotation(total, now.R[f], aim, f, own, spin)
     return total
 
 
 def _add_points(
-    total: Pull, limb: Branches, now: SubtreePose, aim: Aim, f: int, own: Index, spin: Array
+    total: Pull, arrays: SubtreeArrays, now: SubtreePose, aim: Aim, f: int, own: Index, spin: Array
 ) -> None:
     x = np.einsum("abm,bk->akm", now.R[f], aim.local) + now.p[f][:, None]
     e = aim.p - x
@@ -122,7 +122,7 @@ def _add_points(
     D = (d[:, None] * (aim.weight * d)).sum(axis=2)
     torque = np.stack([B[1, 2] - B[2, 1], B[2, 0] - B[0, 2], B[0, 1] - B[1, 0]])
     slide = np.where(
-        limb.turns[own, None], cross(spin, centre[:, None] - now.points[:, own]), now.axes[:, own]
+        arrays.revolute[own, None], cross(spin, centre[:, None] - now.points[:, own]), now.axes[:, own]
     )
     total.slope[own] += (slide * force[:, None]).sum(axis=0) + (spin * torque[:, None]).sum(axis=0)
     square = np.ix_(own, own)

@@ -12,18 +12,19 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array
 from exo_pin.ik.least_squares.cost import bow
-from exo_pin.ik.subtree import AXES, Limb
+from exo_pin.ik.least_squares.residual import WORLD_ALIGNED
 from exo_pin.ik.targets import Goal
+from exo_pin.robot import Subtree
 
 
-def bend(limb: Limb, data: Any, goals: list[Goal], k: int, scale: tuple[float, float]) -> Array:
+def bend(subtree: Subtree, data: Any, goals: list[Goal], k: int, scale: tuple[float, float]) -> Array:
     """Half the Hessian of the sum of squares, less J^T J (nv, nv), where `residual` was just asked.
 
-    The formulas stand in `exo_pin.ik.pull`; the limb has a fixed base.
+    The formulas stand in `exo_pin.ik.pull`; the subtree has a fixed base.
     """
-    H = np.zeros((limb.model.nv, limb.model.nv))
-    for index, goal in zip(limb.ids, goals, strict=True):
-        J = pin.getFrameJacobian(limb.model, data, index, AXES).reshape(6, -1)
+    H = np.zeros((subtree.model.nv, subtree.model.nv))
+    for index, goal in zip(subtree.ids, goals, strict=True):
+        J = pin.getFrameJacobian(subtree.model, data, index, WORLD_ALIGNED).reshape(6, -1)
         M, spin = data.oMf[index], J[3:]
         across = np.zeros_like(spin)
         for point, target, weight in zip(goal.local, goal.p[k], goal.weight[k], strict=True):

@@ -1,4 +1,4 @@
-"""Damped least squares for one limb and one sample, on Pinocchio, with joint limits in every step.
+"""Damped least squares for one subtree and one sample, on Pinocchio, with joint limits in every step.
 
 Each step minimises |J x - e|^2 + damping |x|^2 over the steps that keep the joints within their limits
 (`boxstep`). The damping follows the residual (Sugihara 2011, "Solvability-unconcerned inverse kinematics by
@@ -16,11 +16,12 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.ik.least_squares.box_qp import box_step
+from exo_pin.ik.least_squares.residual import residual
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.least_squares.second_order import bend, definite
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.subtree import Limb, residual
 from exo_pin.ik.targets import Goal
+from exo_pin.robot import Subtree
 
 _FLOOR = 1e-13  # keeps the normal equations definite at a singular pose
 _STUCK = 1e-10  # a step this small changes nothing any more [rad, m]
@@ -41,7 +42,7 @@ class Try(NamedTuple):
 
 
 def best_try(
-    limb: Limb,
+    subtree: Subtree,
     data: Any,
     seed: Array,
     goals: list[Goal],
@@ -56,12 +57,12 @@ def best_try(
 
     `free`: the seed is no neighbour's answer, so that leaving it costs nothing. `compromise`: see `descend`.
     """
-    first = descend(limb, data, seed, goals, k, settings, free=free, compromise=compromise)
+    first = descend(subtree, data, seed, goals, k, settings, free=free, compromise=compromise)
     steps = first.steps
     if first.converged or not reachable or (settings.damping and not free):
         return first
-    for start in starts(limb.middle, limb.lower, limb.upper, settings.restarts):
-        again = descend(limb, data, start, goals, k, settings, free=True)
+    for start in starts(subtree.middle, subtree.lower, subtree.upper, settings.restarts):
+        again = descend(subtree, data, start, goals, k, settings, free=True)
         steps += again.steps
         if again.converged:
             return again._replace(steps=steps)
@@ -69,7 +70,7 @@ def best_try(
 
 
 def descend(
-    limb: Limb,
+    subtree: Subtree,
     data: Any,
     seed: Array,
     goals: list[Goal],
@@ -84,24 +85,24 @@ def descend(
     `free`: no price on leaving the seed. `compromise`: the targets cannot all be met, so that steps with the
     whole second derivative (`bend`) are the shorter way.
     """
-    look = partial(_look, limb, data, goals, k, settings, compromise)
+    look = partial(_look, subtree, data, goals, k, settings, compromise)
     price = 0.0 if free else settings.damping**2
-    start = q = np.minimum(np.maximum(seed, limb.lower), limb.upper)
+    start = q = np.minimum(np.maximum(seed, subtree.lower), subtree.upper)
     e, J, errors, rest = look(q)
-    away = np.zeros(limb.model.nv)
+    away = np.zeros(subtree.model.nv)
     cost, factor, step = float(e @ e), 1.0, 0
     for step in range(1, settings.max_iterations + 1):
         if price == 0.0 and not np.nanmax(errors) > settings.tolerance:
             return Try(q, errors, step - 1, cost, True)
-        A, g, room = J.T @ J, J.T @ e + price * away, limb.box(q)
+        A, g, room = J.T @ J, J.T @ e + price * away, subtree.box(q)
         A[np.diag_indices_from(A)] += factor * cost + price + _FLOOR
         x = box_step(*(definite(A, g, rest, *room) if compromise else (A, g)), *room)
         size = np.abs(x).max()
         if size < (_STILL if price else _STUCK):
             break
-        trial = limb.moved(q, x)
+        trial = subtree.moved(q, x)
         there = look(trial)
-        away_new = limb.difference(trial, start) if price else away
+        away_new = subtree.difference(trial, start) if price else away
         cost_new = float(there[0] @ there[0] + price * (away_new @ away_new))
         if cost_new < cost:
             q, away, cost = trial, away_new, cost_new
@@ -115,9 +116,9 @@ def descend(
 
 
 def _look(
-    limb: Limb, data: Any, goals: list[Goal], k: int, settings: Dls, compromise: bool, q: Array
+    subtree: Subtree, data: Any, goals: list[Goal], k: int, settings: Dls, compromise: bool, q: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Error, Jacobian, distances and angles, and for a compromise what bends the cost."""
     scale = (settings.position_weight, settings.rotation_weight)
-    e, J, errors = residual(limb, data, q, goals, k, scale)
-    return e, J, errors, bend(limb, data, goals, k, scale) if compromise else _NOTHING
+    e, J, errors = residual(subtree, data, q, goals, k, scale)
+    return e, J, errors, bend(subtree, data, goals, k, scale) if compromise else _NOTHING

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.ik.subtree_arrays import Branches
 from exo_pin.ik.targets import Goal
+from exo_pin.robot import SubtreeArrays
 
 HASTE = 2.0
 """Room for joints that share the work; with 1, compromises near a straight knee come late."""
@@ -19,7 +19,7 @@ ARM = 0.05
 """Shorter lever arms count as this long [m]: a joint that hardly moves its frame has nothing to follow."""
 
 
-def pace(joints: Branches, goals: list[Goal]) -> Array:
+def pace(joints: SubtreeArrays, goals: list[Goal]) -> Array:
     """The largest move of each joint to each sample from the one before (n, J) [rad], slides [m].
 
     It is `HASTE` times what the target's largest move so far asks of the joint: the way of its points over
@@ -30,8 +30,8 @@ def pace(joints: Branches, goals: list[Goal]) -> Array:
     for f, goal in enumerate(goals):
         centre = joints.frames[f, :3, :3] @ goal.local.mean(axis=0) + joints.frames[f, :3, 3]
         arms = np.linalg.norm(np.cross(joints.axes, centre - joints.points), axis=1)
-        arms = np.where(joints.turns, np.maximum(arms, ARM), 1.0)
-        need = _ways(goal)[:, None] / arms + _turns(goal)[:, None] * joints.turns
+        arms = np.where(joints.revolute, np.maximum(arms, ARM), 1.0)
+        need = _ways(goal)[:, None] / arms + _turns(goal)[:, None] * joints.revolute
         np.maximum(most, np.where(joints.moves[f], need, 0.0), out=most)
     most = HASTE * np.maximum.accumulate(most, axis=0)
     most[0] = np.inf

@@ -1,4 +1,4 @@
-"""Damped least squares for any limb of turning and sliding joints, all samples at once.
+"""Damped least squares for any subtree of turning and sliding joints, all samples at once.
 
 For devices with fewer joints, whose feet cannot be everywhere: the answer is a compromise, and near a
 compromise the Gauss-Newton steps of `dls` only creep. Each step here takes the whole second derivative
@@ -19,12 +19,10 @@ from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.least_squares.sequential import reachable
 from exo_pin.ik.problem import Problem, problem
+from exo_pin.ik.result import SOLVED_BY, SolutionBuffer
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
-from exo_pin.ik.subtree import Limb
-from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import CHUNK, Goal, Target
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, Subtree, SubtreeArrays
 
 SETTLED = Dls(tolerance=1e-10)
 """Settings of a compromise: no target is expected to be met."""
@@ -79,41 +77,47 @@ def settle(
         Configurations (n, nq).
     """
     task, q = problem(robot, targets, seed, base), np.clip(seed, lower, upper)
-    for limb in task.limbs:
-        joints = branches(limb)
+    for subtree in task.subtrees:
+        joints = subtree.arrays
         assert joints is not None  # as the docstring asks
-        limits = lower[:, limb.q].T, upper[:, limb.q].T
-        q[:, limb.q] = descend(joints, task.goals_of(limb), seed[:, limb.q].T, *limits, settings).q.T
+        limits = lower[:, subtree.columns].T, upper[:, subtree.columns].T
+        q[:, subtree.columns] = descend(
+            joints, task.goals_of(subtree), seed[:, subtree.columns].T, *limits, settings
+        ).q.T
     return q
 
 
-def together(task: Problem, limb: Limb, joints: Branches, settings: Dls, sheet: Sheet) -> None:
-    """Write the answers for one limb, every sample from its own seed."""
-    goals, places = task.goals_of(limb), task.places_of(limb)
-    seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, limb.q].T
-    out = descend(joints, goals, seed, limb.lower, limb.upper, settings)
-    near = reachable(task, limb, sheet)
-    for start in starts(limb.middle, limb.lower, limb.upper, settings.restarts):
+def together(
+    task: Problem, subtree: Subtree, joints: SubtreeArrays, settings: Dls, buffer: SolutionBuffer
+) -> None:
+    """Write the answers for one subtree, every sample from its own seed."""
+    goals, places = task.goals_of(subtree), task.places_of(subtree)
+    seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, subtree.columns].T
+    out = descend(joints, goals, seed, subtree.lower, subtree.upper, settings)
+    near = reachable(task, subtree, buffer)
+    for start in starts(subtree.middle, subtree.lower, subtree.upper, settings.restarts):
         stuck = np.flatnonzero(near & ~out.reached(settings.tolerance))
         if not len(stuck):
             break
         some = [goal.only(stuck) for goal in goals]
-        again = descend(joints, some, np.tile(start[:, None], len(stuck)), limb.lower, limb.upper, settings)
+        again = descend(
+            joints, some, np.tile(start[:, None], len(stuck)), subtree.lower, subtree.upper, settings
+        )
         out.take(stuck, again, again.reached(settings.tolerance))
-    sheet.q[:, limb.q] = out.q.T
-    sheet.errors[:, :, places] = out.errors.swapaxes(1, 2)
-    sheet.steps[:] += out.steps
-    sheet.solver[:] = SOLVED_BY.index("dls")
+    buffer.q[:, subtree.columns] = out.q.T
+    buffer.errors[:, :, places] = out.errors.swapaxes(1, 2)
+    buffer.steps[:] += out.steps
+    buffer.solver[:] = SOLVED_BY.index("dls")
 
 
 def descend(
-    limb: Branches, goals: list[Goal], seed: Array, lower: Array, upper: Array, settings: Dls
+    arrays: SubtreeArrays, goals: list[Goal], seed: Array, lower: Array, upper: Array, settings: Dls
 ) -> Answers:
     """The compromise that each seed leads to.
 
     Args:
-        limb: The joints.
-        goals: One per frame of the limb, n samples.
+        arrays: The joints.
+        goals: One per frame of the subtree, n samples.
         seed: Where each sample starts (J, n).
         lower: Lower limits (J,), or (J, n); equal limits hold a joint.
         upper: Upper limits.
@@ -129,9 +133,9 @@ def descend(
     )
     for a in range(0, count, CHUNK):
         part = slice(a, min(a + CHUNK, count))
-        pool = _Pool.of(limb, aims(limb, goals, part, settings), out, part, low, high)
+        pool = _Pool.of(arrays, aims(arrays, goals, part, settings), out, part, low, high)
         while len(pool.who):
-            pool.step(limb, settings)
+            pool.step(arrays, settings)
             ended = pool.ended(settings)
             if 4 * ended.sum() >= len(ended):
                 pool.leave(out, ended)
@@ -153,11 +157,11 @@ class _Pool:
 
     @classmethod
     def of(
-        cls, limb: Branches, aimed: list[Aim], out: Answers, part: slice, low: Array, high: Array
+        cls, arrays: SubtreeArrays, aimed: list[Aim], out: Answers, part: slice, low: Array, high: Array
     ) -> _Pool:
         """Samples at their seeds."""
         who, q = np.arange(out.q.shape[1])[part], out.q[:, part]
-        now = pull(limb, aimed, q)
+        now = pull(arrays, aimed, q)
         return cls(who, aimed, low[:, part], high[:, part], q, now, np.ones(len(who)), np.zeros_like(who))
 
     def ended(self, settings: Dls) -> Mask:
@@ -175,7 +179,7 @@ class _Pool:
             setattr(self, name, getattr(self, name)[..., stay])
         self.now, self.aimed = self.now.only(stay), [aim.only(stay) for aim in self.aimed]
 
-    def step(self, limb: Branches, settings: Dls) -> None:
+    def step(self, arrays: SubtreeArrays, settings: Dls) -> None:
         """One damped step of every sample; a step that does not help is taken back and damped more."""
         damping = np.minimum(self.factor, 1e30) * self.now.cost + _FLOOR
         slope = self.now.slope
@@ -183,7 +187,7 @@ class _Pool:
         A = curvature(self.now, damping, free & (self.low < self.high))
         x = normal_equations.box_steps(A, np.where(free, slope, 0.0), self.low - self.q, self.high - self.q)
         trial = np.minimum(np.maximum(self.q + x, self.low), self.high)
-        then = pull(limb, self.aimed, trial)
+        then = pull(arrays, self.aimed, trial)
         better = then.cost < self.now.cost
         self.steps += ~self.ended(settings)
         if better.all():

@@ -1,4 +1,4 @@
-"""The best motion of a limb whose joints have limited speeds: all samples in one problem.
+"""The best motion of a subtree whose joints have limited speeds: all samples in one problem.
 
 The least sum of squared errors over the whole motion, every joint within its limits and moving no further
 from sample to sample than its pace. An excess over the pace costs its square, more and more so, until hardly
@@ -18,9 +18,8 @@ from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
 from exo_pin.ik.least_squares.subtree_kernel import SETTLED, curvature
 from exo_pin.ik.problem import problem
-from exo_pin.ik.subtree_arrays import Branches, branches
 from exo_pin.ik.targets import Target
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, SubtreeArrays
 
 _PRICES = (30.0, 3e4)
 """What the square of an excess costs [m^2/rad^2], one after the other; the last leaves about 1e-5 rad."""
@@ -45,25 +44,27 @@ def paced(robot: Robot, targets: Mapping[str, Target], start: Array, pace: Array
         base: T_world_pelvis (n, 4, 4).
 
     Returns:
-        Configurations (n, nq); `start` itself for a limb that keeps the pace there.
+        Configurations (n, nq); `start` itself for a subtree that keeps the pace there.
     """
     task, q = problem(robot, targets, start, base), np.array(start)
     lower, upper = robot.lower[:, None], robot.upper[:, None]
-    for limb in task.limbs:
-        joints = branches(limb)
+    for subtree in task.subtrees:
+        joints = subtree.arrays
         assert joints is not None  # as the docstring asks
-        aimed = aims(joints, task.goals_of(limb), slice(0, task.n), SETTLED)
-        motion = _Motion(joints, aimed, lower[limb.q], upper[limb.q], pace[:, limb.q].T)
-        if motion.excess(q[:, limb.q].T).any():
-            q[:, limb.q] = motion.settled(q[:, limb.q].T).T
+        aimed = aims(joints, task.goals_of(subtree), slice(0, task.n), SETTLED)
+        motion = _Motion(
+            joints, aimed, lower[subtree.columns], upper[subtree.columns], pace[:, subtree.columns].T
+        )
+        if motion.excess(q[:, subtree.columns].T).any():
+            q[:, subtree.columns] = motion.settled(q[:, subtree.columns].T).T
     return q
 
 
 @dataclass(frozen=True, eq=False)
 class _Motion:
-    """A limb over time: its joints, what they aim at, their limits (J, 1) and paces (J, n - 1 or n)."""
+    """A subtree over time: its joints, what they aim at, their limits (J, 1) and paces (J, n - 1 or n)."""
 
-    joints: Branches
+    joints: SubtreeArrays
     aimed: list[Aim]
     lower: Array
     upper: Array

@@ -13,8 +13,8 @@ from exo_pin.ik.leg import closed_form, forward, scalar
 from exo_pin.ik.leg.constants import IdealLeg
 from exo_pin.ik.problem import Problem
 from exo_pin.ik.reach import slack, slack_of
+from exo_pin.ik.result import SOLVED_BY, SolutionBuffer
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.solution_buffer import SOLVED_BY, Sheet
 from exo_pin.ik.targets import CHUNK, Goal
 from exo_pin.robot.leg_axes import LegAxes
 
@@ -24,7 +24,7 @@ ROUNDING, ROUGH = 1e-13, 1e-6
 """Errors between these are worth a polish [m, rad]."""
 
 
-def formula(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) -> None:
+def formula(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, buffer: SolutionBuffer) -> None:
     """Write the closed form's answers for the leg of target f, within limits, and their true errors."""
     goal = task.goals[f]
     assert goal.R is not None  # a leg is asked for full poses only (`solvers._limbs`)
@@ -38,10 +38,10 @@ def formula(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) 
         if np.isnan(distance).any():  # the ankle in the hip: no direction to take angles from
             q = np.where(np.isnan(q), 0.5 * (low + high), q)
             distance, angle = forward.errors(forward.forward(leg, q), R, p)
-        sheet.errors[0, part, f], sheet.errors[1, part, f] = distance, angle
-        sheet.slack[part, f] = slack(leg, R, p)
+        buffer.errors[0, part, f], buffer.errors[1, part, f] = distance, angle
+        buffer.slack[part, f] = slack(leg, R, p)
         for j, column in enumerate(leg.columns):
-            sheet.q[part, column] = q[j]
+            buffer.q[part, column] = q[j]
 
 
 def one_by_one(goal: Goal, leg: LegAxes, ideal: IdealLeg) -> Array:
@@ -53,22 +53,22 @@ def one_by_one(goal: Goal, leg: LegAxes, ideal: IdealLeg) -> Array:
     return np.array([solve(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
 
 
-def polish(task: Problem, f: int, leg: LegAxes, sheet: Sheet) -> None:
+def polish(task: Problem, f: int, leg: LegAxes, buffer: SolutionBuffer) -> None:
     """Two steps more for the few answers whose limits cut off the rounding of a nearly singular pose."""
-    goal, own = task.goals[f], sheet.errors[:, :, f]
+    goal, own = task.goals[f], buffer.errors[:, :, f]
     assert goal.R is not None  # as above
     rough = np.flatnonzero(((own > ROUNDING) & (own < ROUGH)).any(axis=0))
     if not len(rough):
         return
     spot, settings = np.ix_(rough, leg.columns), Dls(tolerance=ROUNDING, max_iterations=2, restarts=0)
     asked, near = (goal.R[rough], goal.p[rough, 0]), np.ones(len(rough), dtype=bool)
-    better = leg_kernel.answers(leg, *asked, sheet.q[spot].T, settings, reachable=near)
+    better = leg_kernel.answers(leg, *asked, buffer.q[spot].T, settings, reachable=near)
     gain = better.errors.sum(axis=0) < own[:, rough].sum(axis=0)
-    sheet.q[spot] = np.where(gain, better.q, sheet.q[spot].T).T
-    sheet.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
+    buffer.q[spot] = np.where(gain, better.q, buffer.q[spot].T).T
+    buffer.errors[:, rough, f] = np.where(gain, better.errors, own[:, rough])
 
 
-def nearly(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) -> None:
+def nearly(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, buffer: SolutionBuffer) -> None:
     """Write starts for a calibrated leg from the nearest ideal one; they count as not reached yet."""
     goal = task.goals[f]
     assert goal.R is not None  # as above
@@ -76,32 +76,32 @@ def nearly(task: Problem, f: int, leg: LegAxes, ideal: IdealLeg, sheet: Sheet) -
         part = slice(a, a + CHUNK)
         q = start.angles(leg, ideal, *forward.components(goal.R[part], goal.p[part, 0]))
         for j, column in enumerate(leg.columns):
-            sheet.q[part, column] = q[j]
-    sheet.errors[:, :, f] = np.inf
-    sheet.slack[:, f] = slack_of(leg, goal)
+            buffer.q[part, column] = q[j]
+    buffer.errors[:, :, f] = np.inf
+    buffer.slack[:, f] = slack_of(leg, goal)
 
 
 def descent(
-    task: Problem, f: int, leg: LegAxes, settings: Dls, sheet: Sheet, *, seed: Array | None = None
+    task: Problem, f: int, leg: LegAxes, settings: Dls, buffer: SolutionBuffer, *, seed: Array | None = None
 ) -> None:
     """Damped least squares for the samples of target f that are not within the tolerance.
 
-    The seed (6, n) is what stands on the sheet if left out.
+    The seed (6, n) is what stands on the buffer if left out.
     """
     goal = task.goals[f]
     assert goal.R is not None  # as above
     with np.errstate(invalid="ignore"):
-        rest = np.flatnonzero(~(sheet.errors[:, :, f] <= settings.tolerance).all(axis=0))
+        rest = np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0))
     if not len(rest):
         return
-    begin = sheet.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
-    near = np.asarray(~(sheet.slack[rest, f] < -leg.doubt))
+    begin = buffer.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
+    near = np.asarray(~(buffer.slack[rest, f] < -leg.doubt))
     own = weighted(settings, goal.weight[0, 0], goal.rotation_weight)
     answer = leg_kernel.answers(leg, goal.R[rest], goal.p[rest, 0], begin, own, reachable=near)
-    sheet.q[np.ix_(rest, leg.columns)] = answer.q.T
-    sheet.errors[:, rest, f] = answer.errors
-    sheet.steps[rest] += answer.steps
-    sheet.solver[rest] = SOLVED_BY.index("dls")
+    buffer.q[np.ix_(rest, leg.columns)] = answer.q.T
+    buffer.errors[:, rest, f] = answer.errors
+    buffer.steps[rest] += answer.steps
+    buffer.solver[rest] = SOLVED_BY.index("dls")
 
 
 def weighted(settings: Dls, position: float, rotation: float) -> Dls:
