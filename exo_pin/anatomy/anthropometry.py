@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from exo_pin.anatomy.names import Movement
+
 LENGTHS = {"thigh": 0.245, "shank": 0.246, "foot_length": 0.152}
 """Segment length / stature, Drillis & Contini 1966."""
 
@@ -89,7 +91,7 @@ HARDWARE_MASSES = {
 """Hardware of each link [kg] (hip: each of two links), a design choice: 21.4 kg, between the devices of
 12 kg (Exo-H2, Indego) and 23 kg (Ekso, ReWalk) in JNER 2021, s12984-021-00815-5, table 1."""
 
-LIMITS_DEG = {
+LIMITS_DEG: dict[Movement, tuple[float, float]] = {
     "hip_flexion": (-30.0, 120.0),
     "hip_adduction": (-45.0, 30.0),
     "hip_rotation": (-45.0, 45.0),

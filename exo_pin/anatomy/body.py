@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from exo_pin.anatomy import anthropometry
+from exo_pin.anatomy.human import DEFAULT_MASS, DEFAULT_STATURE
 from exo_pin.anatomy.names import SIDES, Sex, Side
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
@@ -90,7 +91,12 @@ class Body:
 
     @classmethod
     def from_stature(
-        cls, stature: float = 1.75, *, mass: float = 70.0, sex: Sex = "male", **overrides: Any
+        cls,
+        stature: float = DEFAULT_STATURE,
+        *,
+        mass: float = DEFAULT_MASS,
+        sex: Sex = "male",
+        **overrides: Any,
     ) -> Body:
         """The body of average proportions; `exo_pin.anatomy.tables` names the sources.
 

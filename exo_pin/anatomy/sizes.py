@@ -9,7 +9,8 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from exo_pin.anatomy.anthropometry import LIMITS_DEG
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, joint
+from exo_pin.anatomy.human import ranges_by_joint
+from exo_pin.anatomy.names import JOINTS, SIDES
 from exo_pin.errors import DescriptionError, UnknownNameError
 
 
@@ -51,13 +52,7 @@ SIZES = {
 }
 """Every number of a `Body`."""
 
-DEFAULT_LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
-    {
-        joint(side, movement): (math.radians(LIMITS_DEG[movement][0]), math.radians(LIMITS_DEG[movement][1]))
-        for side in SIDES
-        for movement in MOVEMENTS
-    }
-)
+DEFAULT_LIMITS = MappingProxyType(ranges_by_joint(LIMITS_DEG))
 """Default joint limits [rad] by joint name."""
 
 

@@ -12,6 +12,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.arrays import Array
 from exo_pin.compare.best_motion import Motion, Walk
 from exo_pin.devices import Device
+from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.phases import masks
 from exo_pin.gait.rigid import angle_of
 
@@ -155,8 +156,7 @@ def root_mean_square(values: Array) -> float:
 
 def axes(recorded: Walk) -> Array:
     """Forward, left and up (3, 3) in the world, by the mean direction in which the pelvis looks."""
-    forward = recorded.base[:, :2, 0].mean(axis=0)
-    c, s = forward / np.linalg.norm(forward)
+    c, s = mean_heading(recorded.base)
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 

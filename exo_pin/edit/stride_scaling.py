@@ -15,6 +15,7 @@ from exo_pin.edit.recheck import JOLT
 from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
+from exo_pin.gait.heading import headings
 from exo_pin.kinematics import events, poses
 from exo_pin.kinematics.resting_stance import travel
 from exo_pin.robot import Robot
@@ -74,10 +75,10 @@ def strided(
     drift = (stride - 1) * (_drift(old, gait.time) if not gait.periodic else np.zeros((len(gait), 3)))
     new, targets = old.copy(), feet.copy()
     new[:, :3, 3] += drift
-    heading, lift = _heading(old), _lift(robot, gait, q, old)
+    heading, lift = headings(old), _lift(robot, gait, q, old)
     for k in range(len(FEET)):
-        ahead = np.einsum("ni,ni->n", feet[:, k, :3, 3] - old[:, :3, 3], heading)
-        targets[:, k, :3, 3] += (stride - 1) * (ahead - ahead.mean())[:, None] * heading + drift
+        ahead = np.einsum("ni,ni->n", feet[:, k, :2, 3] - old[:, :2, 3], heading)
+        targets[:, k, :2, 3] += (stride - 1) * (ahead - ahead.mean())[:, None] * heading + drift[:, :2]
         targets[:, k, 2, 3] += (clearance - 1) * lift[:, k]
     what = f"stride x{stride:g}, clearance x{clearance:g}"
     return _calmest(robot, gait, q, (feet, targets), (old, new), what)
@@ -186,12 +187,6 @@ def _off_ground(time: Array, off: Mask) -> list[tuple[float, float]]:
     """Spans of time in which a foot is off the ground, short ones left out."""
     spans = ((float(time[a]), float(time[b - 1])) for a, b in runs(off))
     return [(a, b) for a, b in spans if b - a > SHORTEST]
-
-
-def _heading(base: Array) -> Array:
-    """`(n, 3)` where the pelvis looks, level."""
-    forward = base[:, :3, 0] * [1.0, 1.0, 0.0]
-    return np.asarray(forward / np.maximum(np.linalg.norm(forward, axis=1, keepdims=True), 1e-9))
 
 
 def _drift(base: Array, time: Array) -> Array:

@@ -8,7 +8,7 @@ from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
 from exo_pin.gait.norms import Norm, against_normal, normal
 from exo_pin.gait.plausibility import doubts
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
-from exo_pin.gait.strides import Stride, strides
+from exo_pin.gait.strides import Stride, side_with_more_strides, strides
 from exo_pin.gait.torques import Torques
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "normal",
     "normative_gait",
     "normative_sd",
+    "side_with_more_strides",
     "spatiotemporal",
     "strides",
     "zeni",

@@ -15,6 +15,7 @@ from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import curves
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
+from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.rigid import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.validation import read_only
@@ -135,8 +136,7 @@ def cycles(gait: Gait, side: Side = "left", *, points: int = POINTS) -> Cycles:
 def _on_the_spot(flat: Array) -> Array:
     """Poses `(n, 4, 4)` of one cycle from entries `(n, 16)`: heading along x, without the even travel."""
     base = nearest_pose(flat.reshape(-1, 4, 4))
-    ahead = base[:, :2, 0].sum(axis=0)
-    c, s = ahead / max(float(np.linalg.norm(ahead)), 1e-9)
+    c, s = mean_heading(base)
     base[:, :2] = np.array([[c, s], [-s, c]]) @ base[:, :2]
     share = np.linspace(0, 1, len(base))[:, None]
     base[:, :2, 3] -= share * (base[-1, :2, 3] - base[0, :2, 3])

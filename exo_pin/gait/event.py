@@ -17,8 +17,11 @@ from exo_pin.errors import GaitError, UnknownNameError
 EVENT_KINDS = ("heel_strike", "toe_off")
 """What can happen to a foot: it meets the ground with the heel, or leaves it with the toe."""
 
-ON_A_SAMPLE = 1e-9
-"""An event this close to a sample is meant to lie on it, as a fraction of the walk's duration."""
+SAME_TIME = 1e-9
+"""Two times closer than this are the same [s]: an event so close to a sample lies on it."""
+
+FOOT_FLAT = (0.2, 0.5)
+"""Part of the stance in which the whole foot rests on the ground: after the heel rocker, before heel-off."""
 
 
 @dataclass(frozen=True)
@@ -55,14 +58,13 @@ def between(times: Sequence[float], start: float, end: float) -> Sequence[float]
     return times[bisect_right(times, start) : bisect_left(times, end)]
 
 
-def stance(time: Array, events: Sequence[Event], side: Side, *, duration: float, periodic: bool) -> Mask:
+def stance(time: Array, events: Sequence[Event], side: Side, *, periodic: bool) -> Mask:
     """Whether a foot is on the ground: from its heel strike until its toe-off.
 
     Args:
         time: `(n,)` [s].
         events: Sorted by time.
         side: `"left"` or `"right"`.
-        duration: Length of the walk [s].
         periodic: Whether the last event of the cycle also tells what is before the first.
 
     Returns:
@@ -78,7 +80,7 @@ def stance(time: Array, events: Sequence[Event], side: Side, *, duration: float,
     if not mine:
         raise GaitError(f"the gait has no events of the {side} foot, so its contact is unknown")
     _check_turns(mine, periodic)
-    times = np.array([event.time for event in mine]) - ON_A_SAMPLE * duration
+    times = np.array([event.time for event in mine]) - SAME_TIME
     latest = np.searchsorted(times, time, side="right") - 1
     strikes = np.array([event.kind == "heel_strike" for event in mine])
     before = not strikes[0]  # before its first event the foot is in the state which that event ends

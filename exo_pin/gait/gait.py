@@ -218,7 +218,7 @@ class Gait:
             GaitError: If the side has no events, or they do not take turns (then contact is unknown).
             UnknownNameError: If there is no such side.
         """
-        return stance(self.time, self.events, side, duration=self.duration, periodic=self.periodic)
+        return stance(self.time, self.events, side, periodic=self.periodic)
 
     @property
     def _period(self) -> float | None:

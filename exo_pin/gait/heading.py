@@ -1,4 +1,4 @@
-"""Where a recorded walk goes: laboratories lay their axes as they like."""
+"""The heading of a walk: the horizontal direction in which the pelvis faces."""
 
 from __future__ import annotations
 
@@ -6,22 +6,43 @@ from dataclasses import replace
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.rigid import about
 
-STRAIGHT = 0.5
-"""Length of the mean of the unit headings below which a walk has no direction: it turns around."""
+_LEAST_MEAN = 0.5
+"""Length of the mean of the unit headings below which a walk has no heading: it turns around."""
+
+_LEVEL = 1e-9
+"""A horizontal part shorter than this has no direction: the pelvis lies on its face or back."""
+
+
+def headings(base: Array) -> Array:
+    """`(n, 2)` unit headings of a pelvis with poses `(n, 4, 4)`, sample by sample."""
+    forward = base[:, :2, 0]
+    return np.asarray(forward / np.maximum(np.linalg.norm(forward, axis=1, keepdims=True), _LEVEL))
+
+
+def mean_heading(base: Array) -> Array:
+    """`(2,)` unit vector: the mean heading of a pelvis with poses `(n, 4, 4)`."""
+    forward = base[:, :2, 0].mean(axis=0)
+    return np.asarray(forward / max(float(np.linalg.norm(forward)), _LEVEL))
+
+
+def yaw(base: Array) -> Array:
+    """`(n,)` headings as angles from x about the vertical, without jumps [rad]."""
+    return np.unwrap(np.arctan2(base[:, 1, 0], base[:, 0, 0]))
 
 
 def heading(gait: Gait) -> float | None:
-    """Mean direction in which the pelvis faces, counted from x about the vertical [rad].
+    """Mean heading of a walk as an angle from x about the vertical [rad].
 
     None where there is none: the pelvis does not move, or the walk turns around.
     """
     if gait.base is None:
         return None
-    mean = complex(gait.base[:, 0, 0].mean(), gait.base[:, 1, 0].mean())
-    return float(np.angle(mean)) if abs(mean) > STRAIGHT else None
+    x, y = gait.base[:, :2, 0].mean(axis=0)
+    return float(np.arctan2(y, x)) if np.hypot(x, y) > _LEAST_MEAN else None
 
 
 def turned(gait: Gait, angle: float) -> Gait:

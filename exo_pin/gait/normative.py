@@ -13,12 +13,12 @@ from exo_pin.gait import schwartz2008_sd as spread
 from exo_pin.gait.event import Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
+from exo_pin.physics import GRAVITY
 
 SPEEDS = tuple(ANGLES)
 """`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
 
 SOURCE = "Schwartz 2008"
-GRAVITY = 9.81
 LEG_LENGTHS = (0.1, 2.5)
 """Shortest and longest leg [m] that a stride time is given for: what a `Body` can be."""
 

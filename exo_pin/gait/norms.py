@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.gait.spatiotemporal import Number
-
-GRAVITY = 9.81
+from exo_pin.physics import GRAVITY
 
 SPREAD = 2.0
 """A range is the mean plus and minus this many standard deviations: 95 of 100 healthy people."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
+from exo_pin.gait.event import SAME_TIME
 from exo_pin.gait.gait import Gait
 
 PHASES = {
@@ -38,7 +39,7 @@ def percent(gait: Gait, side: Side) -> Array:
         if (kind, following) not in _SPANS:
             continue
         low, high = _SPANS[kind, following]
-        inside = (gait.time >= begin - 1e-9) & (gait.time < end - 1e-9)
+        inside = (gait.time >= begin - SAME_TIME) & (gait.time < end - SAME_TIME)
         done = (gait.time[inside] - begin) / (end - begin)
         share[inside] = low + (high - low) * np.clip(done, 0.0, 1.0)
     return share

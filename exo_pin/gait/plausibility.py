@@ -5,12 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.anatomy.human import EXTREME_RANGES, HYPEREXTENDED_KNEE
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
-
-BACKWARDS = np.radians(-10.0)
-"""No healthy knee is straighter than this for long [rad]; recordings hyperextend by up to 5 degrees."""
 
 LONG = 0.3
 """Part of the samples that is long."""
@@ -20,16 +18,6 @@ NOTHING = np.radians(3.0)
 
 SLOWEST = 0.2
 """No recording of a walk has its samples further apart than this [s]: 5 Hz, a few per step."""
-
-RANGES = {
-    "hip_flexion": (-45.0, 130.0),
-    "hip_adduction": (-50.0, 45.0),
-    "hip_rotation": (-70.0, 70.0),
-    "knee_flexion": (-20.0, 160.0),
-    "ankle_dorsiflexion": (-65.0, 50.0),
-    "ankle_inversion": (-50.0, 60.0),
-}
-"""What human joints can do at the very most [deg]: clinical ranges of motion with a margin of about 20."""
 
 
 def doubts(gait: Gait) -> tuple[str, ...]:
@@ -53,14 +41,14 @@ def _sparse(time: Array) -> str:
 
 def _backwards(q: Array, side: Side) -> str:
     knee = q[:, JOINTS.index(f"{side}_knee_flexion")]
-    share = float((knee < BACKWARDS).mean())
+    share = float((knee < HYPEREXTENDED_KNEE).mean())
     if share < LONG:
         return ""
     return f"{side} knee bends backwards for {100 * share:.0f} % of the cycle: sign or preset?"
 
 
 def _impossible(angle: Array, joint: str) -> str:
-    low, high = np.radians(RANGES[joint.partition("_")[2]])
+    low, high = EXTREME_RANGES[joint]
     share = float(((angle < low) | (angle > high)).mean())
     if not share:
         return ""

@@ -13,12 +13,9 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.event import Event, between
-from exo_pin.gait.strides import ROUNDING, Stride
+from exo_pin.gait.event import FOOT_FLAT, SAME_TIME, Event, between
+from exo_pin.gait.strides import Stride
 from exo_pin.gait.validation import check_time, frozen
-
-FLAT = (0.2, 0.5)
-"""Part of the stance in which the foot rests on the ground: after the heel's roll, before it lifts."""
 
 STILL = 0.05
 """A ground that seems to move slower than this [m/s] stands still."""
@@ -84,7 +81,7 @@ def spatiotemporal(
         spans = [Stride(side, *ab) for side in SIDES for ab in pairwise(walk.times("heel_strike", side))]
     if not spans:
         raise GaitError("no gait cycles found: no foot strikes the ground twice")
-    counted = [span for span in spans if span.start < until * (1 - ROUNDING)]
+    counted = [span for span in spans if span.start < until - SAME_TIME]
     ground = _ground(walk, None if pelvis is None else frozen(pelvis, "pelvis"))
     length = np.array([np.linalg.norm(_path(walk, span, ground)) for span in counted])
     duration = np.array([span.duration for span in counted])
@@ -148,7 +145,7 @@ def _spans(walk: _Walk, side: Side) -> Iterator[tuple[float, float]]:
     mine = [event for event in walk.events if event.side == side]
     for strike, off in pairwise(mine):
         if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
-            a, b = (strike.time + part * (off.time - strike.time) for part in FLAT)
+            a, b = (strike.time + part * (off.time - strike.time) for part in FOOT_FLAT)
             yield a, b
 
 
@@ -162,7 +159,7 @@ def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) ->
     ends = {(span.side, span.end): span for span in spans}
     for a, b in pairwise(strikes):
         around = [span for span in (begins.get((a.side, a.time)), ends.get((b.side, b.time))) if span]
-        if a.side == b.side or not around or a.time > until * (1 - ROUNDING):
+        if a.side == b.side or not around or a.time > until - SAME_TIME:
             continue
         course = sum((_path(walk, span, ground) for span in around), np.zeros(2))
         forward = course / max(float(np.linalg.norm(course)), 1e-9)

@@ -11,13 +11,10 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait.event import EVENT_KINDS, Event, between
+from exo_pin.gait.event import EVENT_KINDS, FOOT_FLAT, Event, between
 
 APART = 0.15
 """The other foot strikes at least this part of the stride after and before this one: limps reach 0.3."""
-
-REST = (0.2, 0.5)
-"""Part of the stance in which the whole foot rests on the ground."""
 
 AIRBORNE = (0.4, 0.05)
 """A foot strikes the ground no higher than this part of its swing's height, and this [m], above its rest."""
@@ -129,7 +126,7 @@ def _against(feet: Feet, first: Array, k: int, moments: tuple[float, float, floa
     stance, swing = (_mean(feet.time, sole, a, b) for a, b in ((strike, off), (off, end)))
     if stance > swing + LIFTED:
         return "the feet are higher in stance than in swing"
-    a, b = (strike + part * (off - strike) for part in REST)
+    a, b = (strike + part * (off - strike) for part in FOOT_FLAT)
     resting = np.interp(np.linspace(a, b, 20), feet.time, sole)
     if np.ptp(resting) > LEVEL:
         return "the feet go up and down where they should rest on the ground: cycling?"
@@ -145,7 +142,7 @@ def _against(feet: Feet, first: Array, k: int, moments: tuple[float, float, floa
 
 def in_the_air(feet: Feet, height: Array, strike: float, off: float, end: float) -> str:
     """Whether a part of the foot is too high to strike the ground, in words."""
-    rest = _mean(feet.time, height, *(strike + part * (off - strike) for part in REST))
+    rest = _mean(feet.time, height, *(strike + part * (off - strike) for part in FOOT_FLAT))
     swing = height[(feet.time >= off) & (feet.time <= end)]
     lift = float(swing.max()) - rest if len(swing) else 0.0
     above = float(np.interp(strike, feet.time, height)) - rest

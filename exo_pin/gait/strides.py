@@ -8,14 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.anatomy import JOINTS
+from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait.event import between
+from exo_pin.gait.event import SAME_TIME, between
 from exo_pin.gait.gait import Gait
-
-ROUNDING = 1e-9
-"""Of times, as a part of the walk's duration."""
+from exo_pin.gait.heading import yaw
 
 LONGEST = 3.0
 """A stride longer than this many median strides holds a pause or a missed event."""
@@ -67,7 +65,7 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
         side: Whose heel strikes.
     """
     if gait.periodic:
-        first = gait.duration * (1 - ROUNDING)
+        first = gait.duration - SAME_TIME
         return tuple(span for span in strides(unrolled(gait), side) if span.start < first)
     mine = [event for event in gait.events if event.side == side]
     strikes = [event.time for event in mine if event.kind == "heel_strike"]
@@ -83,6 +81,11 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
         for span, turn, lift in zip(spans, turns, lifted, strict=True)
     ]
     return tuple(span._replace(why=why) for span, why in zip(spans, whys, strict=True))
+
+
+def side_with_more_strides(gait: Gait) -> Side:
+    """The foot that has more strides (those without a reason against them); left if both have as many."""
+    return max(SIDES, key=lambda side: sum(not span.why for span in strides(gait, side)))
 
 
 def unrolled(gait: Gait) -> Gait:
@@ -116,8 +119,7 @@ def turns_of(gait: Gait, times: Sequence[float] | Array) -> Array:
     """How far the pelvis's level heading turns from each of `(m,)` times to the next, `(m - 1,)` [rad]."""
     if gait.base is None:
         return np.zeros(len(times) - 1)
-    yaw = np.unwrap(np.arctan2(gait.base[:, 1, 0], gait.base[:, 0, 0]))
-    return np.diff(np.interp(times, gait.time, yaw))
+    return np.diff(np.interp(times, gait.time, yaw(gait.base)))
 
 
 def _still(gait: Gait, usual: float) -> Array:

@@ -11,16 +11,13 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import rigid
-from exo_pin.gait.event import Event
+from exo_pin.gait.event import SAME_TIME, Event
 
 LARGEST_ANGLE = np.pi
 """No joint of a leg turns further [rad]; a larger number is nearly always degrees taken for radians."""
 
 LARGEST_TIME = 1e9
 """Thirty years [s]: a number beyond is no time of a walk."""
-
-SHORTEST_STEP = 1e-9
-"""Samples closer than this [s] are the same sample: their differences would only be rounding."""
 
 UNIFORM = 1e-6
 """How far the samples of a periodic gait may lie off an even grid, as a fraction of the step."""
@@ -54,7 +51,7 @@ def check_time(time: Array, periodic: bool) -> None:
     bad = np.flatnonzero(~(np.abs(time) <= LARGEST_TIME))
     if bad.size:
         raise GaitError(f"time of frame {bad[0]} is {time[bad[0]]:g}, expected seconds")
-    late = np.flatnonzero(np.diff(time) < SHORTEST_STEP)
+    late = np.flatnonzero(np.diff(time) < SAME_TIME)  # differences of such samples would be rounding
     if late.size:
         k = int(late[0])
         raise GaitError(

@@ -12,7 +12,7 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.event import Event
+from exo_pin.gait.event import SAME_TIME, Event
 from exo_pin.gait.events import SOURCE, candidates, check_apart, check_turns
 from exo_pin.gait.step_checks import Feet, Step, agreed, in_the_air, steps_of
 
@@ -57,7 +57,7 @@ def _repeated(feet: Feet) -> tuple[Event, ...]:
     period = feet.time[-1] * n / (n - 1)
     time = period / n * np.arange(3 * n)
     thrice = Feet(time, *(np.concatenate([x] * 3) for x in feet[1:]))
-    middle = [e for e in walking(thrice) if period <= e.time + 1e-9 * period < 2 * period]
+    middle = [e for e in walking(thrice) if period <= e.time + SAME_TIME < 2 * period]
     events = [dataclasses.replace(e, time=max(e.time - period, 0.0)) for e in middle]
     check_turns(events, periodic=True)
     return tuple(events)

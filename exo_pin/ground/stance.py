@@ -13,16 +13,13 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
+from exo_pin.gait.event import SAME_TIME
 
 Intervals = dict[str, tuple[tuple[float, float], ...]]
 """Side -> (from, to) [s] after the gait's first sample."""
 
 NEAR_GROUND = 0.010
 """A foot whose lowest corner is this close to the lower foot's is taken to stand as well [m] (a choice)."""
-
-
-ON_A_SAMPLE = 1e-9
-"""An event this close behind a sample is meant to lie on it [s]."""
 
 
 def from_events(gait: Gait) -> Intervals | None:
@@ -55,7 +52,7 @@ def lowest_corners(positions: Array) -> dict[str, Array]:
 def samples(intervals: Intervals, side: Side, time: Array) -> Mask:
     """`(n,)` whether the side stands at times [s] after the gait's first sample."""
     inside = np.zeros(len(time), dtype=bool)
-    moment = time + ON_A_SAMPLE  # an event that is meant to lie on a sample may miss it by rounding
+    moment = time + SAME_TIME  # an event that is meant to lie on a sample may miss it by rounding
     for start, end in intervals[side]:
         inside |= (start <= moment) & (moment < end)
     return inside

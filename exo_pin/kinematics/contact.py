@@ -12,6 +12,7 @@ from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
+from exo_pin.gait.heading import headings
 from exo_pin.gait.step_checks import Feet
 from exo_pin.gait.strides import strides, turns_of
 from exo_pin.gait.walking_bouts import walking
@@ -24,9 +25,6 @@ TOUCH = 0.01
 
 TURNED = np.pi / 2
 """A pelvis that turns by more [rad] in a motion that is no walk is worth mentioning."""
-
-LEVEL = 1e-9
-"""A heading shorter than this has no direction: the pelvis lies on its face or back."""
 
 
 class Contacts(NamedTuple):
@@ -84,7 +82,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     """
     base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
-    heading = T[:, 0, :2, 0] / np.maximum(np.linalg.norm(T[:, 0, :2, 0], axis=1, keepdims=True), LEVEL)
+    heading = headings(T[:, 0])
     soles = T[:, 1:, :3, 3].reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball of each foot
     if gait.base is None:
         # on an upright pelvis swing feet sink below standing ones: legs shorten all the same

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from exo_pin.arrays import Array
+from exo_pin.gait.heading import mean_heading
 
 
 def stand(time: Array, base: Array, *, periodic: bool) -> Array:
@@ -17,8 +16,7 @@ def stand(time: Array, base: Array, *, periodic: bool) -> Array:
     place = base[:, :3, 3]
     held = np.tile(np.eye(4), (len(place), 1, 1))
     held[:, :3, 3] = travel(time, place, periodic=periodic)
-    forward = base[:, :2, 0].mean(axis=0)
-    c, s = forward / math.hypot(*forward)
+    c, s = mean_heading(base)
     held[:, :2, :2] = [[c, -s], [s, c]]
     return held
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES, Body
+from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
@@ -19,9 +20,6 @@ THIGH = 0.245 / (0.245 + 0.246)
 
 LEG = 0.245 + 0.246
 """Hip to ankle / stature, the same."""
-
-BODY_MASS_INDEX = 22.0
-"""For a mass that nobody says [kg/m^2]."""
 
 MARKER_RADIUS = 0.007
 """Of a usual marker [m]: what Davis's regression takes off."""
@@ -189,7 +187,7 @@ def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: Sex) ->
         if sizes.ankle is not None:
             measures[f"{side}_ankle_height"] = sizes.ankle
     try:
-        weight = BODY_MASS_INDEX * stature**2 if mass is None else mass
+        weight = usual_mass(stature) if mass is None else mass
         rounded = {name: round(value, 6) for name, value in measures.items()}
         return Body.from_stature(round(stature, 4), mass=weight, sex=sex, **rounded)
     except DescriptionError as error:

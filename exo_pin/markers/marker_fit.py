@@ -10,9 +10,9 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.human import EXTREME_RANGES
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.plausibility import RANGES
 from exo_pin.kinematics import poses
 from exo_pin.markers.body_scale import Placement, Sizes, body_of, placement, rigid_fit
 from exo_pin.markers.marker_sets import MarkerSet
@@ -39,9 +39,6 @@ FAR = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=12)
 NEAR = dataclasses.replace(FAR, max_iterations=6)
 """The same where the answer for all but the same body is known."""
 
-HUMAN = {f"{s}_{m}": (np.radians(a), np.radians(b)) for s in SIDES for m, (a, b) in RANGES.items()}
-"""Joint limits of the solution [rad]: a person's extremes, for the device's stops are no fact of a trial."""
-
 
 @dataclass(frozen=True)
 class Model:
@@ -58,9 +55,9 @@ def few(path: Array) -> Array:
 
 
 def human(chosen: MarkerSet, sizes: Sizes) -> Robot:
-    """A robot of these sizes that floats and has a person's joint ranges."""
+    """A robot of these sizes that floats, with a person's extreme joint ranges: no device limits a trial."""
     body = body_of(sizes, chosen, mass=None, sex="male")  # masses do not move a marker
-    return load_robot(dataclasses.replace(body, limits=HUMAN), base="floating")
+    return load_robot(dataclasses.replace(body, limits=EXTREME_RANGES), base="floating")
 
 
 def resized(robot: Robot, sizes: Sizes) -> Robot:

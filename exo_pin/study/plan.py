@@ -7,6 +7,7 @@ from pathlib import Path
 
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
@@ -20,9 +21,6 @@ STATURES = (1.50, 1.95)
 
 STEP = 0.05
 """Between two statures [m]."""
-
-BODY_MASS_INDEX = 70.0 / 1.75**2
-"""Of every body of a study unless a mass is given [kg/m^2]: that of the default body."""
 
 GRANTED = (Conditions("recorded"), Conditions("device"))
 """Both readings of the pelvis."""
@@ -64,7 +62,7 @@ def plan(
         of: Statures [m]; `statures()` if left out.
         devices: Names, device files or records.
         conditions: What the devices are granted.
-        mass: Of every person [kg]; by `BODY_MASS_INDEX` if left out.
+        mass: Of every person [kg]; by `exo_pin.anatomy.human.usual_mass` if left out.
         sex: Of every person.
 
     Raises:
@@ -87,13 +85,11 @@ def bodies(of: Iterable[float], *, mass: float | None = None, sex: Sex = "male")
 
     Args:
         of: Their statures [m].
-        mass: Of each [kg]; by `BODY_MASS_INDEX` if left out.
+        mass: Of each [kg]; by `exo_pin.anatomy.human.usual_mass` if left out.
         sex: Of each.
     """
     return [
-        Body.from_stature(
-            stature, mass=round(BODY_MASS_INDEX * stature**2, 3) if mass is None else mass, sex=sex
-        )
+        Body.from_stature(stature, mass=round(usual_mass(stature), 3) if mass is None else mass, sex=sex)
         for stature in of
     ]
 

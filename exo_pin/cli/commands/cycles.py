@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     """Cut, print, write."""
     from exo_pin import edit
     from exo_pin.formats import save_gait
-    from exo_pin.gait import cycles
+    from exo_pin.gait import cycles, side_with_more_strides
     from exo_pin.kinematics import with_events
     from exo_pin.robot import load_robot
 
@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
-    cut = cycles(gait, args.side or side(gait))
+    cut = cycles(gait, args.side or side_with_more_strides(gait))
     found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
     if args.json:
         show.as_json(found)
@@ -64,14 +64,6 @@ def run(args: argparse.Namespace) -> int:
     if args.mean:
         save_gait(cut.average(f"{gait.source}; mean of {count(cut)}"), args.mean)
     return 0
-
-
-def side(gait: Gait) -> str:
-    """The foot with more cycles; left if they have as many."""
-    from exo_pin.gait import strides
-
-    count = [sum(not stride.why for stride in strides(gait, foot)) for foot in SIDES]
-    return SIDES[count[1] > count[0]]
 
 
 def facts(robot: Robot, gait: Gait) -> dict[str, Any]:

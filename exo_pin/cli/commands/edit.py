@@ -131,12 +131,13 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
 def _cycle(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin.cli.commands import cycles
     from exo_pin.gait import cycles as cut
+    from exo_pin.gait import side_with_more_strides
     from exo_pin.kinematics import with_events
 
     if not args.cycle:
         return gait
     known = with_events(robot, gait)
-    found = cut(known, cycles.side(known))
+    found = cut(known, side_with_more_strides(known))
     return found.average(f"{gait.source}; mean of {cycles.count(found)}")
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
+from exo_pin.anatomy.human import DEFAULT_STATURE
 from exo_pin.arrays import Array
 from exo_pin.gait import SPEEDS
 from exo_pin.gait.phases import PHASES
@@ -15,9 +16,6 @@ from exo_pin.report.draw.chart import Chart, draw
 from exo_pin.report.draw.heat import heat, strips
 from exo_pin.study import Row, summary
 from exo_pin.study.study_table import phase_column
-
-USUAL = 1.75
-"""Speeds are compared at the stature nearest to this [m]."""
 
 _SAME = 0.01  # [mm] curves nearer than this to each other are drawn as one
 _MOST = 40  # recordings in a table
@@ -231,7 +229,7 @@ def _phases(row: Row) -> list[float]:
 
 
 def _usual_stature(rows: Sequence[Row]) -> float:
-    return min({row.stature_m for row in rows}, key=lambda stature: (abs(stature - USUAL), stature))
+    return min({row.stature_m for row in rows}, key=lambda stature: (abs(stature - DEFAULT_STATURE), stature))
 
 
 def _usual_speed(rows: Sequence[Row]) -> str:

@@ -10,6 +10,7 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
+from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.rigid import about
 from exo_pin.ground.placement import Placement, motion
 from exo_pin.robot import Robot
@@ -89,16 +90,11 @@ def in_step(gait: Gait, other: Gait) -> str:
 def _brought(gait: Gait, base: Array) -> Array:
     """The base poses `(n, 4, 4)` turned about the vertical and shifted level to a gait's own start."""
     own = np.eye(4)[None] if gait.base is None else gait.base
-    turn = np.angle(_heading(own) * np.conj(_heading(base)))
+    (x, y), (u, v) = mean_heading(own), mean_heading(base)
     T = np.eye(4)
-    T[:3, :3] = about((0.0, 0.0, 1.0), float(turn))
+    T[:3, :3] = about((0.0, 0.0, 1.0), np.arctan2(y * u - x * v, x * u + y * v))
     T[:2, 3] = own[0, :2, 3] - T[:2, :2] @ base[0, :2, 3]
     return np.asarray(T @ base)
-
-
-def _heading(base: Array) -> complex:
-    """Mean forward direction of a pelvis on the ground, as a complex number."""
-    return complex(base[:, 0, 0].mean(), base[:, 1, 0].mean())
 
 
 def flat_poses(T: Array) -> Array:

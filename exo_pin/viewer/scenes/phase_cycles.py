@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.gait import Gait
-from exo_pin.gait.strides import strides
+from exo_pin.gait.strides import side_with_more_strides, strides
 from exo_pin.viewer.scenes.scene import Interval, PhaseCycles
 
 
@@ -17,11 +16,11 @@ def cycles(gait: Gait) -> PhaseCycles:
     A periodic walk is one cycle, seen around its end; without heel strikes it begins at its first sample.
     Spans of a recording that are no strides (a pause, a turn) are no cycles.
     """
-    found = {side: _of(gait, side) for side in SIDES}
-    side = max(SIDES, key=lambda each: len(found[each]))  # the first of equals
-    if gait.periodic and not found[side]:
+    side = side_with_more_strides(gait)
+    found = _of(gait, side)
+    if gait.periodic and not found:
         return PhaseCycles("", ((0.0, gait.duration),))
-    return PhaseCycles(side if found[side] else "", found[side])
+    return PhaseCycles(side if found else "", found)
 
 
 def _of(gait: Gait, side: Side) -> tuple[Interval, ...]:
