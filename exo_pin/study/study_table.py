@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 from exo_pin.anatomy.names import Sex
 from exo_pin.errors import FormatError
@@ -101,12 +101,11 @@ COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
 MOTIONS = ("best", "copy")
 """The two rows of every device on every walk."""
 
-_KINDS: Mapping[str, Callable[[str], Any]] = {
-    "str": str,
-    "int": int,
-    "float": lambda cell: float(cell) if cell else math.nan,
+_NUMBERS: Mapping[Any, Callable[[str], Any]] = {
+    int: int,
+    float: lambda cell: float(cell) if cell else math.nan,
 }
-_READ = tuple(_KINDS[str(field.type)] for field in dataclasses.fields(Row))
+_READ = tuple(_NUMBERS.get(kind, str) for kind in get_type_hints(Row).values())
 
 
 def phase_column(phase: str) -> str:
