@@ -1,4 +1,4 @@
-"""Online: one sample after another, made for a control loop of 1 kHz."""
+"""Inverse kinematics online: one sample after another, for a control loop of 1 kHz."""
 
 from __future__ import annotations
 
@@ -15,14 +15,13 @@ from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.least_squares.single_sample import descend
-from exo_pin.ik.leg.scalar import Formula, formula
+from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
 from exo_pin.ik.settings import Dls
-from exo_pin.ik.solvers import NEARLY, closed_form_of
 from exo_pin.ik.targets import Goal, pose_array
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 
-asarray, forward = np.asarray, pin.framesForwardKinematics  # looked up once: this is the inner loop
+_asarray, _forward_kinematics = np.asarray, pin.framesForwardKinematics  # found once: an inner loop
 
 
 class Online:
@@ -72,12 +71,12 @@ class Online:
             raise DescriptionError(f"q0 has shape {self.q.shape}; ({robot.nq},) is accepted")
         self.reached, self.slowed = False, False
         self._legs = [_own_leg(robot, name) for name in frames]
-        formulas = [_formula(own) for own in self._legs]
+        formulas = [exact_formula(own) for own in self._legs]
         self._formulas = [solve for solve in formulas if solve is not None]
         self._exact = len(self._formulas) == len(formulas)
-        self._columns = _together(np.concatenate([own.columns for own in self._legs]))
-        self._limbs = [robot.subtree((name,)) for name in frames]
-        self._limb_data = {subtree.frames[0]: subtree.model.createData() for subtree in self._limbs}
+        self._columns = _as_slice(np.concatenate([own.columns for own in self._legs]))
+        self._subtrees = [robot.subtree((name,)) for name in frames]
+        self._subtree_data = {subtree.frames[0]: subtree.model.createData() for subtree in self._subtrees}
         first = robot.nq - len(robot.joints)
         speeds = robot.velocity[np.concatenate([own.columns for own in self._legs]) - first]
         self._largest = None if dt is None else speeds * dt
@@ -94,25 +93,25 @@ class Online:
         if len(targets) != len(self._tips):
             raise DescriptionError(f"{len(targets)} targets were given for {len(self._tips)} frames")
         if self._carry is not None:
-            targets = tuple(self._carry @ asarray(T, float) for T in targets)
-        numbers = [asarray(T, float).ravel().tolist() for T in targets]
+            targets = tuple(self._carry @ _asarray(T, float) for T in targets)
+        numbers = [_asarray(T, float).ravel().tolist() for T in targets]
         if self._exact:
             angles: list[float] = []
             for solve, T in zip(self._formulas, numbers):  # noqa: B905  # counted above, and strict costs time
                 angles += solve(T)
             self._pack(self._memory, 0, *angles)
-            if self._good(numbers):
+            if self._reached(numbers):
                 return self._accept()
         if self._iterate(numbers):
             return self._accept()
         self.reached = self.slowed = False
         return self.q
 
-    def _good(self, targets: list[list[float]]) -> bool:
+    def _reached(self, targets: list[list[float]]) -> bool:
         """Whether Pinocchio finds every frame at its target."""
-        forward(self._model, self._data, self._trial)
+        _forward_kinematics(self._model, self._data, self._trial)
         for tip, T in zip(self._tips, targets):  # noqa: B905  # counted in `step`, and strict costs time
-            if not dist(tip.homogeneous.ravel().tolist(), T) < self._tolerance:  # NaN is not good either
+            if not dist(tip.homogeneous.ravel().tolist(), T) < self._tolerance:  # NaN is not reached
                 return False
         return True
 
@@ -131,23 +130,23 @@ class Online:
         return self.q
 
     def _iterate(self, targets: list[list[float]]) -> bool:
-        """A few damped steps per leg: from the last answer, then from the nearest ideal leg's."""
-        for j, (subtree, own, target) in enumerate(zip(self._limbs, self._legs, targets, strict=True)):
+        """A few damped steps per leg: from the last answer, then from the nearest closed form."""
+        for j, (subtree, own, target) in enumerate(zip(self._subtrees, self._legs, targets, strict=True)):
             T = np.array(target).reshape(4, 4)
             if not np.isfinite(T).all():
                 return False
             p, R = T[None, None, :3, 3], T[None, :3, :3]
             goal = Goal(own.frame, np.zeros((1, 3)), p, R, np.ones((1, 1)), 1.0)
-            near = closed_form_of(own, tolerance=NEARLY)
+            near = approximate_formula(own)
             seeds = [self.q[own.columns]]
             if near is not None:
-                seeds.append(np.array(formula(near, own.lower, own.upper)(target)))
+                seeds.append(np.array(near(target)))
             for seed in seeds:
-                answer = descend(subtree, self._limb_data[own.frame], seed, [goal], 0, self._settings)
+                answer = descend(subtree, self._subtree_data[own.frame], seed, [goal], 0, self._settings)
                 if answer.converged:
                     break
             self._trial[LEG_JOINTS * j : LEG_JOINTS * (j + 1)] = answer.q
-        return self._good(targets)
+        return self._reached(targets)
 
 
 def _own_leg(robot: Robot, frame: str) -> LegAxes:
@@ -158,7 +157,7 @@ def _own_leg(robot: Robot, frame: str) -> LegAxes:
 
 
 def _carry(robot: Robot, q: Array, base: npt.ArrayLike | None) -> Array | None:
-    """What takes a world target to the robot at its own placement; None where it stands there."""
+    """Takes world targets to the robot at its own placement (4, 4); None where it stands there."""
     if base is not None:
         return np.asarray(robot.placement @ np.linalg.inv(pose_array("base", np.asarray(base)[None])[0]))
     if robot.base == "floating":
@@ -180,12 +179,7 @@ def _bare_legs(legs: Sequence[LegAxes]) -> Any:
     return model
 
 
-def _formula(own: LegAxes) -> Formula | None:
-    exact = closed_form_of(own)
-    return None if exact is None else formula(exact, own.lower, own.upper)
-
-
-def _together(columns: Index) -> slice | Index:
+def _as_slice(columns: Index) -> slice | Index:
     """A slice where the joints stand side by side: quicker to write to."""
     first = int(columns[0])
     beside = bool((np.diff(columns) == 1).all())

@@ -1,4 +1,4 @@
-"""A problem: robot, goals and seeds, checked once, the same for every solver."""
+"""What every solver takes and fills: the checked problem, and the solution buffer."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
+from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
-from exo_pin.robot import Robot, Subtree
+from exo_pin.robot import LegAxes, Robot, Subtree
+
+SOLVED_BY = ("closed_form", "dls")
+"""Names of the solvers; the later one counts where legs differ."""
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What a solver gets.
+    """A checked problem, what every solver takes.
 
     Attributes:
         robot: The robot.
-        goals: One per target frame, seen from the robot at its own placement.
+        goals: One per target frame, in the axes of the robot at its own placement.
         n: Number of samples.
         subtrees: The joints that are solved for, one subtree for each group of frames that share joints.
-        rest: Configuration (nq,) or (n, nq) that unused joints keep (and a held floating base).
-        seed: Start (nq,), or one per sample (n, nq).
+        rest: Configuration (nq,) or (n, nq) of the joints that move no target (and of a held floating base).
+        seed: Where an iteration starts (nq,), or one for each sample (n, nq).
     """
 
     robot: Robot
@@ -41,18 +45,82 @@ class Problem:
         return tuple(goal.frame for goal in self.goals)
 
     def goals_of(self, subtree: Subtree) -> list[Goal]:
-        """The goals of one subtree, in the order of its frames."""
+        """The goals of a subtree, in the order of its frames."""
         return [self.goals[f] for f in self.places_of(subtree)]
 
     def places_of(self, subtree: Subtree) -> list[int]:
         """Where the subtree's frames stand among the target frames."""
         return [self.frames.index(name) for name in subtree.frames]
 
+    def leg_of(self, subtree: Subtree) -> LegAxes | None:
+        """The leg of a subtree whose one target is the full pose of a frame on a leg; None for others."""
+        goals = self.goals_of(subtree)
+        full = goals[0].R is not None and bool((goals[0].weight > 0.0).all())
+        single = len(goals) == 1 and full and not subtree.floating
+        return self.robot.leg(goals[0].frame) if single else None
+
+
+@dataclass(frozen=True, eq=False)
+class SolutionBuffer:
+    """What the solvers fill in, subtree by subtree.
+
+    Attributes:
+        q: Configurations (n, nq).
+        errors: Distance and angle of each frame (2, n, F).
+        steps: Steps spent on each sample (n,).
+        solver: Index into `SOLVED_BY` (n,).
+        slack: How far each target is inside the leg's reach (n, F) [m]; NaN for frames that no leg carries.
+    """
+
+    q: Array
+    errors: Array
+    steps: Index
+    solver: npt.NDArray[np.int8]
+    slack: Array
+
+    @classmethod
+    def blank(cls, task: Problem) -> SolutionBuffer:
+        """Unused joints at rest, everything else empty."""
+        n = task.n
+        q = np.empty((n, task.robot.nq))
+        q[:] = task.rest
+        errors = np.full((2, n, len(task.frames)), np.nan)
+        room = np.full((n, len(task.frames)), np.nan)
+        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), room)
+
+    def track(self, task: Problem, tolerance: float) -> Track:
+        """The finished answer."""
+        lower, upper = np.full(task.robot.nq, -np.inf), np.full(task.robot.nq, np.inf)
+        joints = slice(task.robot.nq - len(task.robot.joints), None)
+        lower[joints], upper[joints] = task.robot.lower, task.robot.upper
+        turned = np.array([goal.R is not None for goal in task.goals])
+        converged = (self.errors[0] <= tolerance).all(axis=1)
+        converged &= (self.errors[1][:, turned] <= tolerance).all(axis=1)
+        return Track(
+            frames=task.frames,
+            q=self.q,
+            position_error=self.errors[0],
+            rotation_error=self.errors[1],
+            iterations=self.steps,
+            converged=converged,
+            reach_slack=self.slack,
+            solver=self.solver,
+            solvers=SOLVED_BY,
+            lower=lower,
+            upper=upper,
+        )
+
 
 def problem(
     robot: Robot, targets: Mapping[str, Target], q0: npt.ArrayLike | None, base: npt.ArrayLike | None
 ) -> Problem:
-    """Check everything that `track` was given.
+    """Check everything that `track` is given.
+
+    Args:
+        robot: The robot.
+        targets: By name of the frame, n samples.
+        q0: Seed (nq,), or one for each sample (n, nq); mid-range if left out.
+        base: T_world_pelvis (4, 4) or (n, 4, 4); the robot's own placement if left out.
 
     Raises:
         UnknownNameError: A frame is unknown.
@@ -80,7 +148,7 @@ def _base(base: npt.ArrayLike) -> Array:
 def _start(
     robot: Robot, q0: npt.ArrayLike | None, n: int, groups: tuple[Subtree, ...]
 ) -> tuple[Array, Array]:
-    """What the unused joints keep, and where the iteration starts: mid-range unless q0 says otherwise."""
+    """Configuration of the joints that move no target, and seed: mid-range where there is no q0."""
     if q0 is not None:
         q = np.asarray(q0, dtype=float)
         if q.shape not in ((robot.nq,), (n, robot.nq)):

@@ -1,4 +1,4 @@
-"""Results of inverse kinematics: `Track`, `Solution`, and the buffer that solvers fill."""
+"""Results of inverse kinematics: `Solution` for one sample, `Track` for many."""
 
 from __future__ import annotations
 
@@ -9,10 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.arrays import Array, Index, Mask
-from exo_pin.ik.problem import Problem
 
-SOLVED_BY = ("closed_form", "dls")
-"""What may have answered a sample; the later one counts where legs differ."""
 _AT_LIMIT = 1e-9
 """A joint this close to its limit lies on it [rad]: rounding only."""
 
@@ -25,11 +22,11 @@ class Track:
         frames: Names of the target frames (F of them).
         q: Configurations (n, nq), always within the joint limits [rad].
         position_error: Distance of each frame from its target (n, F) [m], of the q that is returned.
-        rotation_error: Angle between each frame and its target (n, F) [rad]; NaN where no rotation was asked.
-        iterations: Steps spent on each sample (n,); 0 where a formula answered.
+        rotation_error: Angle between each frame and its target (n, F) [rad]; NaN for targets without one.
+        iterations: Steps spent on each sample (n,); 0 for the closed form.
         converged: (n,) True where all errors are within the tolerance.
         reach_slack: How far each target is inside the leg's reach (n, F) [m]; negative: out of reach by that
-            much; NaN for frames that no knee brings nearer.
+            much; NaN for frames that no leg carries.
         solver: Index into `solvers` of what answered each sample (n,).
         solvers: Names of the solvers.
         lower: Lower limit of each entry of q (nq,).
@@ -106,54 +103,3 @@ class Solution:
     active_limits: Mask
     reach_slack: Array
     solver: str
-
-
-@dataclass(frozen=True, eq=False)
-class SolutionBuffer:
-    """What the solvers fill in, subtree by subtree.
-
-    Attributes:
-        q: Configurations (n, nq).
-        errors: Distance and angle of each frame (2, n, F).
-        steps: Steps spent on each sample (n,).
-        solver: Index into `SOLVED_BY` (n,).
-        slack: How far each target is inside the leg's reach (n, F) [m]; NaN for frames that no leg carries.
-    """
-
-    q: Array
-    errors: Array
-    steps: Index
-    solver: npt.NDArray[np.int8]
-    slack: Array
-
-    @classmethod
-    def blank(cls, task: Problem) -> SolutionBuffer:
-        """Unused joints at rest, everything else empty."""
-        n = task.n
-        q = np.empty((n, task.robot.nq))
-        q[:] = task.rest
-        errors = np.full((2, n, len(task.frames)), np.nan)
-        room = np.full((n, len(task.frames)), np.nan)
-        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), room)
-
-    def track(self, task: Problem, tolerance: float) -> Track:
-        """The finished answer."""
-        lower, upper = np.full(task.robot.nq, -np.inf), np.full(task.robot.nq, np.inf)
-        joints = slice(task.robot.nq - len(task.robot.joints), None)
-        lower[joints], upper[joints] = task.robot.lower, task.robot.upper
-        asked = np.array([goal.R is not None for goal in task.goals])
-        converged = (self.errors[0] <= tolerance).all(axis=1)
-        converged &= (self.errors[1][:, asked] <= tolerance).all(axis=1)
-        return Track(
-            frames=task.frames,
-            q=self.q,
-            position_error=self.errors[0],
-            rotation_error=self.errors[1],
-            iterations=self.steps,
-            converged=converged,
-            reach_slack=self.slack,
-            solver=self.solver,
-            solvers=SOLVED_BY,
-            lower=lower,
-            upper=upper,
-        )

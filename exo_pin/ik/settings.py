@@ -1,4 +1,4 @@
-"""Settings: one frozen object picks the solver and carries its numbers."""
+"""Settings: one frozen object selects the solver and holds its tolerances, weights and number of steps."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ class Dls:
     Attributes:
         tolerance: A frame has converged when every position error [m] and rotation error [rad] is below it.
         max_iterations: Steps for one frame from one start.
-        restarts: Further starts for a frame that got stuck; they are used only where they reach the target,
+        restarts: Further seeds for a frame that got stuck; they are used only where they reach the target,
             so that a frame out of reach stays near its neighbour.
-        warm_start: True: each frame starts from the answer of the one before, and where a limb has too few
-            joints for its targets, none of them jumps (`exo_pin.ik.pace`); False: each frame starts from the
+        warm_start: True: each frame starts from the answer of the one before, and where a subtree has too few
+            joints for its targets, none of them jumps (docs/ik.md); False: each frame starts from the
             seed, independent of its neighbours.
-        damping: What a motion away from the sample before costs [m/rad]: the noise of the feet [m] divided by
+        damping: Weight of a motion away from the sample before [m/rad]: the noise of the feet [m] divided by
             how far a joint moves between two samples [rad]. 0 for exact targets; 0.05 keeps the joints calm
             when feet with 3 mm of noise pull a nearly straight leg at 100 Hz, and hardly delays a bent one.
         position_weight: Weight of a position error [1/m] against the others.
@@ -36,8 +36,12 @@ class Dls:
     rotation_weight: float = 1.0
 
     def __post_init__(self) -> None:
-        _positive(self, "tolerance", "max_iterations", "position_weight", "rotation_weight")
-        _not_negative(self, "restarts", "damping")
+        _positive("Dls.tolerance", self.tolerance)
+        _positive("Dls.max_iterations", self.max_iterations)
+        _positive("Dls.position_weight", self.position_weight)
+        _positive("Dls.rotation_weight", self.rotation_weight)
+        _not_negative("Dls.restarts", self.restarts)
+        _not_negative("Dls.damping", self.damping)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +58,7 @@ class Auto:
     dls: Dls = field(default_factory=Dls)
 
     def __post_init__(self) -> None:
-        _positive(self, "tolerance")
+        _positive("Auto.tolerance", self.tolerance)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,21 +72,17 @@ class ClosedForm:
     tolerance: float = 1e-9
 
     def __post_init__(self) -> None:
-        _positive(self, "tolerance")
+        _positive("ClosedForm.tolerance", self.tolerance)
 
 
 Settings = Auto | ClosedForm | Dls
 
 
-def _positive(settings: object, *names: str) -> None:
-    for name in names:
-        value = getattr(settings, name)
-        if not (math.isfinite(value) and value > 0):
-            raise DescriptionError(f"{type(settings).__name__}.{name} is {value}; it must be positive")
+def _positive(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise DescriptionError(f"{name} is {value}; it must be positive")
 
 
-def _not_negative(settings: object, *names: str) -> None:
-    for name in names:
-        value = getattr(settings, name)
-        if not (math.isfinite(value) and value >= 0):
-            raise DescriptionError(f"{type(settings).__name__}.{name} is {value}; it must not be negative")
+def _not_negative(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value >= 0):
+        raise DescriptionError(f"{name} is {value}; it must not be negative")

@@ -1,4 +1,4 @@
-"""`solve` and `track`: targets in, verified joint angles out; the settings object picks the solver."""
+"""`solve` and `track`: from targets to verified joint angles, by the solver that the settings name."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.errors import ConvergenceError, UnknownNameError
-from exo_pin.ik.problem import Problem, problem
+from exo_pin.errors import ConvergenceError, DescriptionError, UnknownNameError
+from exo_pin.ik.least_squares.sequential import follow
+from exo_pin.ik.least_squares.subtree_kernel import together
+from exo_pin.ik.leg import batch
+from exo_pin.ik.leg.geometry import approximate_geometry, exact_geometry
+from exo_pin.ik.problem import Problem, SolutionBuffer, problem
 from exo_pin.ik.result import Solution, Track
 from exo_pin.ik.settings import Auto, ClosedForm, Dls, Settings
-from exo_pin.ik.solvers import auto, closed, descend
 from exo_pin.ik.targets import Points, Pose, Position, Target
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, Subtree
 
 Solver = Callable[[Problem, Any], Track]
 
-SOLVERS: dict[type, Solver] = {Auto: auto, ClosedForm: closed, Dls: descend}
-"""What answers each kind of settings."""
-
-DEFAULT = Auto()
+_DEFAULT = Auto()
 
 
 def track(
@@ -31,7 +31,7 @@ def track(
     q0: npt.ArrayLike | None = None,
     *,
     base: npt.ArrayLike | None = None,
-    settings: Settings = DEFAULT,
+    settings: Settings = _DEFAULT,
 ) -> Track:
     """Joint angles that bring frames to their targets, sample by sample.
 
@@ -60,9 +60,16 @@ def solve(
     q0: npt.ArrayLike | None = None,
     *,
     base: npt.ArrayLike | None = None,
-    settings: Settings = DEFAULT,
+    settings: Settings = _DEFAULT,
 ) -> Solution:
     """Joint angles for one sample; arguments as in `track` without the axis of samples.
+
+    Args:
+        robot: The robot.
+        targets: By name of a frame: T_world_frame (4, 4), or `Pose`, `Position`, `Points` with weights.
+        q0: Where to start (nq,); mid-range if left out.
+        base: T_world_pelvis (4, 4); the robot's own placement if left out.
+        settings: Picks the solver and its tolerances.
 
     Raises:
         ConvergenceError: The targets were not reached; `.solution` holds the best try.
@@ -74,6 +81,73 @@ def solve(
     if not answer.converged:
         raise ConvergenceError(_miss(answer), answer)
     return answer
+
+
+def _auto(task: Problem, settings: Auto) -> Track:
+    """Closed form, check, and damped least squares for the rest, each subtree by the best it allows."""
+    buffer, dls = SolutionBuffer.blank(task), replace(settings.dls, tolerance=settings.tolerance)
+    for subtree in task.subtrees:
+        f, leg = task.places_of(subtree)[0], task.leg_of(subtree)
+        exact = None if leg is None else exact_geometry(leg)
+        near = None if leg is None else exact or approximate_geometry(leg)
+        if leg is None or near is None:
+            _iterate(task, subtree, dls, buffer)
+            continue
+        if exact:
+            batch.write_closed_form(task, f, leg, exact, buffer)
+            batch.refine(task, f, leg, buffer)
+        else:
+            batch.write_approximate_seeds(task, f, leg, near, buffer)
+        batch.write_least_squares(task, f, leg, dls, buffer)
+    return buffer.track(task, settings.tolerance)
+
+
+def _closed_form(task: Problem, settings: ClosedForm) -> Track:
+    """The closed form, checked.
+
+    Raises:
+        DescriptionError: A target is not the full pose of a leg that has a closed form.
+    """
+    buffer = SolutionBuffer.blank(task)
+    for subtree in task.subtrees:
+        leg = task.leg_of(subtree)
+        exact = None if leg is None else exact_geometry(leg)
+        if leg is None or exact is None:
+            raise DescriptionError(
+                f"{', '.join(subtree.frames)}: no closed form; it needs the full pose of a frame on a leg of "
+                "six joints whose hip axes meet, and so on (docs/ik.md). Auto() finds an answer all the same"
+            )
+        batch.write_closed_form(task, task.places_of(subtree)[0], leg, exact, buffer)
+    return buffer.track(task, settings.tolerance)
+
+
+def _least_squares(task: Problem, settings: Dls) -> Track:
+    """Damped least squares alone."""
+    buffer = SolutionBuffer.blank(task)
+    for subtree in task.subtrees:
+        _iterate(task, subtree, settings, buffer)
+    return buffer.track(task, settings.tolerance)
+
+
+def _iterate(task: Problem, subtree: Subtree, settings: Dls, buffer: SolutionBuffer) -> None:
+    """All samples at once where they do not wait for each other, else one after the other."""
+    for f in task.places_of(subtree) if not subtree.floating else ():
+        goal = task.goals[f]
+        buffer.slack[:, f] = batch.reach_slack(task.robot.leg(goal.frame), goal)
+    apart = task.seed.ndim == 2 or not settings.warm_start
+    arrays = subtree.arrays if apart and task.n > 1 and not settings.damping else None
+    leg = task.leg_of(subtree)
+    if arrays is None:
+        follow(task, subtree, settings, buffer)
+    elif leg is None:
+        together(task, subtree, arrays, settings, buffer)
+    else:
+        seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, leg.columns].T
+        batch.write_least_squares(task, task.places_of(subtree)[0], leg, settings, buffer, seed=seed)
+
+
+SOLVERS: dict[type, Solver] = {Auto: _auto, ClosedForm: _closed_form, Dls: _least_squares}
+"""What answers each kind of settings."""
 
 
 def _solver(settings: Settings) -> Solver:
@@ -95,7 +169,7 @@ def _miss(answer: Solution) -> str:
     for f, name in enumerate(answer.frames):
         slack = answer.reach_slack[f]
         reach = f", {-slack * 1e3:.1f} mm out of reach" if slack < 0 else ""
-        turn = answer.rotation_error[f]
-        angle = "" if np.isnan(turn) else f" and {np.degrees(turn):.3g} deg"
+        rotation = answer.rotation_error[f]
+        angle = "" if np.isnan(rotation) else f" and {np.degrees(rotation):.3g} deg"
         parts.append(f"{name} misses by {answer.position_error[f] * 1e3:.3g} mm{angle}{reach}")
     return "; ".join(parts) + " (best try in .solution)"

@@ -1,4 +1,4 @@
-"""Targets: what the frames shall reach, checked at the door, each error with its frame and sample."""
+"""Targets: poses, positions and points that frames shall reach, checked, errors named by frame and sample."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 
-ORTHONORMAL = 1e-6
+_ORTHONORMAL = 1e-6
 """Largest `deviation` from a pose that passes as rounding; what passes is straightened."""
 _EXACT = 1e-13  # a rotation this good needs no straightening
 CHUNK = 6000
@@ -54,7 +54,7 @@ class Points:
     Attributes:
         local: Where the points sit, in the axes of the frame (k, 3) [m].
         p: Where they shall be in the world (n, k, 3) [m], or (k, 3) for `solve`; a marker that was not seen
-            is a row of NaN and pulls nowhere.
+            is a row of NaN and has no weight.
         weight: Multiplies the errors, one for all or one each (k,).
     """
 
@@ -74,7 +74,7 @@ class Goal:
         frame: Name of the frame.
         local: Points on the frame (k, 3) [m]; its origin alone for poses and positions.
         p: Where the points shall be (n, k, 3) [m].
-        R: Rotation that is asked (n, 3, 3), or None.
+        R: Rotation of the frame (n, 3, 3); None where it is left free.
         weight: Of each point (n, k); 0 where it was not seen.
         rotation_weight: Of the rotation.
     """
@@ -98,7 +98,7 @@ def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> t
     Args:
         robot: Whose frames they are.
         targets: By name of the frame.
-        carry: What takes the world to the robot at its own placement: (4, 4), (n, 4, 4) or None.
+        carry: Takes the world to the robot at its own placement: (4, 4), (n, 4, 4), or None for the identity.
 
     Raises:
         UnknownNameError: A frame is unknown.
@@ -130,9 +130,9 @@ def pose_array(name: str, T: npt.ArrayLike) -> Array:
     for a in range(0, len(T), CHUNK):
         off = deviation(T[a : a + CHUNK])
         worst = max(worst, float(off.max()))
-        if not worst <= ORTHONORMAL:
+        if not worst <= _ORTHONORMAL:
             _finite(name, T)
-            k = a + int(np.argmax(~(off <= ORTHONORMAL)))
+            k = a + int(np.argmax(~(off <= _ORTHONORMAL)))
             raise DescriptionError(f"{name}, frame {k}: not a pose (a rotation matrix and last row 0 0 0 1)")
     return straightened(T) if worst > _EXACT else T
 
@@ -187,8 +187,9 @@ def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
     if carry is not None:
         T = _fits(frame, carry, len(T)) @ T
     ones = np.full((len(T), 1), _weight(frame, pose.position_weight))
-    turn = _weight(frame, pose.rotation_weight)
-    return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], T[:, :3, :3] if turn else None, ones, turn)
+    rotation_weight = _weight(frame, pose.rotation_weight)
+    R = T[:, :3, :3] if rotation_weight else None
+    return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], R, ones, rotation_weight)
 
 
 def _points(frame: str, target: Points, carry: Array | None) -> Goal:

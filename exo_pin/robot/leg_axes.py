@@ -55,7 +55,7 @@ class LegAxes:
         return np.asarray(self.tip[:3, :3].T @ (self.ankle - self.tip[:3, 3]))
 
     @cached_property
-    def doubt(self) -> float:
+    def reach_error(self) -> float:
         """How far the reach may be off because the axes do not meet exactly [m]."""
         apart = [np.linalg.norm(np.cross(self.axes[j], self.hip - self.points[j])) for j in range(3)]
         apart += [np.linalg.norm(np.cross(self.axes[j], self.ankle - self.points[j])) for j in (4, 5)]

@@ -13,7 +13,7 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.ik.leg import closed_form, forward
-from exo_pin.ik.solvers import closed_form_of
+from exo_pin.ik.leg.geometry import exact_geometry
 from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
 from peers import PEERS, calibrated, jobs
@@ -159,11 +159,11 @@ def raw(robot, work, budget):
     def formula(job):
         q = np.empty((len(job.q), 12))
         for own, T in zip(legs, (job.left, job.right), strict=True):
-            ideal = closed_form_of(own)
+            geometry = exact_geometry(own)
             for a in range(0, len(q), CHUNK):
                 part = slice(a, a + CHUNK)
                 R, p = forward.components(T[part, :3, :3], T[part, :3, 3])
-                for column, angles in zip(own.columns, closed_form.angles(ideal, R, p), strict=True):
+                for column, angles in zip(own.columns, closed_form.angles(geometry, R, p), strict=True):
                     q[part, column] = angles
         return q
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET, HIP_ORDERS, Body
-from exo_pin.errors import DescriptionError
+from exo_pin.errors import ConvergenceError, DescriptionError
 from exo_pin.ik.leg import closed_form, forward, scalar
-from exo_pin.ik.solvers import closed_form_of
+from exo_pin.ik.leg.geometry import exact_geometry
 from exo_pin.kinematics import jacobian, poses
 from exo_pin.robot import load_robot, load_urdf
 
@@ -59,7 +59,7 @@ def test_the_chain_agrees_with_pinocchio(robot, rng):
         R, p = forward.components(
             poses(robot, q, (foot,))[:, 0, :3, :3], poses(robot, q, (foot,))[:, 0, :3, 3]
         )
-        tip, J = forward.motion(own, q[:, own.columns].T)
+        tip, J = forward.pose_and_jacobian(own, q[:, own.columns].T)
         distance, angle = forward.errors(tip, R, p)
         assert distance.max() < ROUNDING
         assert angle.max() < ROUNDING
@@ -135,12 +135,36 @@ def test_one_frame_in_plain_math_gives_what_many_frames_give(robot, rng):
     q = uniform(robot, rng, 200)
     for foot in FEET:
         own = robot.leg(foot)
-        ideal = closed_form_of(own)
-        formula = scalar.formula(ideal, own.lower, own.upper)
+        geometry, formula = exact_geometry(own), scalar.exact_formula(own)
         T = poses(robot, q, (foot,))[:, 0]
-        many = closed_form.angles(ideal, *forward.components(T[:, :3, :3], T[:, :3, 3])).T
+        many = closed_form.angles(geometry, *forward.components(T[:, :3, :3], T[:, :3, 3])).T
         one = np.array([formula(pose.ravel().tolist()) for pose in T])
         np.testing.assert_allclose(one, np.clip(many, own.lower, own.upper), atol=1e-9)
+
+
+def test_a_formula_keeps_the_limits_it_is_made_with(robot):
+    """Made twice for one leg, the second one does not answer within the limits of the first."""
+    own, knee = robot.leg("left_foot"), 3
+    T = poses(robot, robot.q({"left_knee_flexion": 1.0}), ("left_foot",))[0].ravel().tolist()
+    narrow = own.upper.copy()
+    narrow[knee] = 0.2
+    geometry = exact_geometry(own)
+    assert scalar.formula(geometry, own.lower, own.upper)(T)[knee] == pytest.approx(1.0)
+    assert scalar.formula(geometry, own.lower, narrow)(T)[knee] == 0.2
+    assert scalar.exact_formula(own)(T)[knee] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("name", ["left_knee_flexion", "right_ankle_inversion"])
+def test_a_robot_with_other_limits_is_answered_within_them(robot, name):
+    """Whatever a robot keeps about its legs, a narrower copy does not inherit it."""
+    q = robot.q({name: 0.3})
+    targets = {foot: T[0] for foot, T in feet(robot, q[None]).items()}
+    assert ik.solve(robot, targets).q == pytest.approx(q, abs=STRAIGHT)
+    limits = {name: (0.0, 0.2)}
+    narrow = load_robot(Body.from_stature(1.7, left_thigh=0.43, right_shank=0.40, limits=limits))
+    with pytest.raises(ConvergenceError) as caught:
+        ik.solve(narrow, targets)
+    narrow.check_limits(caught.value.solution.q, tolerance=0.0)
 
 
 def test_a_leg_that_is_turned_as_a_whole_keeps_its_closed_form(robot, rng):
@@ -160,8 +184,8 @@ def test_a_leg_that_is_turned_as_a_whole_keeps_its_closed_form(robot, rng):
 
 def test_a_skewed_axis_is_noticed_and_still_answered(robot, rng):
     other = skewed(robot, "left_knee_flexion", np.radians(2.0))
-    assert closed_form_of(other.leg("left_foot")) is None
-    assert closed_form_of(other.leg("right_foot")) is not None
+    assert exact_geometry(other.leg("left_foot")) is None
+    assert exact_geometry(other.leg("right_foot")) is not None
     q = uniform(other, rng, 300)
     targets = feet(other, q)
     with pytest.raises(DescriptionError, match="no closed form"):
@@ -190,7 +214,7 @@ def test_no_frame_with_an_error_is_called_converged_and_none_leaves_the_limits(r
     reached = np.empty_like(T)
     for k, foot in enumerate(FEET):
         own = robot.leg(foot)
-        tip = forward.forward(own, track.q[:, own.columns].T)
+        tip = forward.pose(own, track.q[:, own.columns].T)
         reached[:, k, :3, :3] = np.moveaxis(np.array(tip.R), -1, 0)
         reached[:, k, :3, 3] = np.array(tip.p).T
     apart = np.linalg.norm(reached[..., :3, 3] - T[..., :3, 3], axis=-1).max(axis=1)

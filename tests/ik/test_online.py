@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin import ik
+from exo_pin.anatomy import FEET
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
@@ -44,17 +45,31 @@ def test_one_foot_alone_moves_one_leg_alone(robot, walk):
     np.testing.assert_array_equal(answer[:6], q[0, :6])
 
 
-def test_out_of_reach_keeps_the_last_good_answer_and_says_so(robot, walk):
+@pytest.mark.parametrize("foot", [0, 1])
+def test_one_foot_out_of_reach_keeps_the_last_good_answer_and_says_so(robot, walk, foot):
     q, T = walk
     loop = ik.Online(robot, q[0])
     loop.step(T[10, 0], T[10, 1])
-    far = T[10, 0].copy()
-    far[2, 3] -= 0.5
-    answer = loop.step(far, T[11, 1])
+    targets = T[11].copy()
+    targets[foot, 2, 3] -= 0.5
+    answer = loop.step(*targets)
     assert not loop.reached
     np.testing.assert_allclose(answer, q[10], atol=ANGLE)
     loop.step(T[12, 0], T[12, 1])
     assert loop.reached
+
+
+@pytest.mark.parametrize("foot", [0, 1])
+def test_a_foot_that_misses_by_more_than_the_tolerance_is_noticed(robot, walk, foot):
+    """The knee at its limit cannot follow 1e-6 m; the other foot is at its target."""
+    stretched = robot.q({f"{side}_hip_flexion": 0.2 for side in ("left", "right")})
+    targets = poses(robot, stretched)
+    hip = robot.leg(FEET[foot]).hip
+    away = targets[foot, :3, 3] - hip
+    targets[foot, :3, 3] += 1e-6 * away / np.linalg.norm(away)
+    loop = ik.Online(robot, stretched)
+    loop.step(*targets)
+    assert not loop.reached
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 2.0])

@@ -15,7 +15,7 @@ import numpy as np
 from exo_pin.arrays import Array, Index, Mask
 from exo_pin.ik.least_squares import normal_equations
 from exo_pin.ik.least_squares.restarts import starts
-from exo_pin.ik.leg.forward import Matrix, Number, components, motion
+from exo_pin.ik.leg.forward import Matrix, Number, components, pose_and_jacobian
 from exo_pin.ik.settings import Dls
 from exo_pin.robot.leg_axes import LegAxes
 
@@ -186,7 +186,7 @@ class _Goal:
 
     def residual(self, leg: LegAxes, q: Array, settings: Dls) -> tuple[Array, Array, Array]:
         """Weighted error (6, m), its Jacobian (6, 6, m) and the plain distance and angle (2, m)."""
-        tip, J = motion(leg, q)
+        tip, J = pose_and_jacobian(leg, q)
         e = np.empty((6, q.shape[1]))
         for i in range(3):
             np.subtract(self.p[i], tip.p[i], out=e[i])

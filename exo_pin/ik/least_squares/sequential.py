@@ -7,8 +7,7 @@ import numpy as np
 from exo_pin.arrays import Array, Mask
 from exo_pin.ik.least_squares.single_sample import best_try, descend
 from exo_pin.ik.least_squares.step_limit import pace
-from exo_pin.ik.problem import Problem
-from exo_pin.ik.result import SOLVED_BY, SolutionBuffer
+from exo_pin.ik.problem import SOLVED_BY, Problem, SolutionBuffer
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal
 from exo_pin.robot import Subtree
@@ -42,8 +41,8 @@ def reachable(task: Problem, subtree: Subtree, buffer: SolutionBuffer) -> Mask:
     """The samples (n,) that another start may bring to their targets."""
     goals, places = task.goals_of(subtree), task.places_of(subtree)
     legs = [task.robot.leg(name) for name in subtree.frames]
-    doubt = [0.0 if chain is None else chain.doubt for chain in legs]
-    short = np.asarray((buffer.slack[:, places] < np.negative(doubt)).any(axis=1))
+    error = [0.0 if leg is None else leg.reach_error for leg in legs]
+    short = np.asarray((buffer.slack[:, places] < np.negative(error)).any(axis=1))
     return np.asarray(~short & enough(subtree, goals))
 
 

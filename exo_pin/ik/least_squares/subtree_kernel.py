@@ -18,8 +18,7 @@ from exo_pin.ik.least_squares import normal_equations
 from exo_pin.ik.least_squares.cost import Aim, Pull, aims, pull
 from exo_pin.ik.least_squares.restarts import starts
 from exo_pin.ik.least_squares.sequential import reachable
-from exo_pin.ik.problem import Problem, problem
-from exo_pin.ik.result import SOLVED_BY, SolutionBuffer
+from exo_pin.ik.problem import SOLVED_BY, Problem, SolutionBuffer, problem
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import CHUNK, Goal, Target
 from exo_pin.robot import Robot, Subtree, SubtreeArrays

@@ -1,4 +1,4 @@
-"""Forward kinematics of a leg for many samples at once, read from the Robot: the check of every answer.
+"""Forward kinematics, Jacobian and reach of a leg, for many samples at once: the check of every answer.
 
 Numbers are kept component by component, `x[i][j]` an array over the samples, so that NumPy works on long
 contiguous rows. Nothing here knows how the closed form is derived; tests compare it with Pinocchio.
@@ -26,7 +26,7 @@ class Tip(NamedTuple):
     p: list[Number]
 
 
-def sines(q: Array) -> tuple[Array, Array]:
+def sine_cosine(q: Array) -> tuple[Array, Array]:
     """Sine and cosine by the tangent of half the angle, one call instead of two."""
     t = np.tan(0.5 * q)
     square = t * t
@@ -34,30 +34,30 @@ def sines(q: Array) -> tuple[Array, Array]:
     return 2.0 * t * share, (1.0 - square) * share
 
 
-def forward(leg: LegAxes, q: Array) -> Tip:
+def pose(leg: LegAxes, q: Array) -> Tip:
     """Poses of the leg's frame in the world for joint angles (6, m), the robot at its own placement."""
-    s, c = sines(q)
+    s, c = sine_cosine(q)
     R, p = _IDENTITY, _row(leg.points[0])
     for j in range(len(q)):
         if j:
-            p = _plus(p, _turned(R, leg.points[j] - leg.points[j - 1]))
-        R = _rotated(R, leg.axes[j], s[j], c[j])
-    p = _plus(p, _turned(R, leg.tip[:3, 3] - leg.points[-1]))
+            p = _plus(p, _rotated(R, leg.points[j] - leg.points[j - 1]))
+        R = _then_about(R, leg.axes[j], s[j], c[j])
+    p = _plus(p, _rotated(R, leg.tip[:3, 3] - leg.points[-1]))
     return Tip(times(R, leg.tip[:3, :3]), p)
 
 
-def motion(leg: LegAxes, q: Array) -> tuple[Tip, Array]:
-    """The poses of `forward` and the Jacobian (6, 6, m): linear, then angular, in world axes."""
-    s, c = sines(q)
+def pose_and_jacobian(leg: LegAxes, q: Array) -> tuple[Tip, Array]:
+    """The poses and the Jacobian (6, 6, m): linear, then angular, in world axes."""
+    s, c = sine_cosine(q)
     R, p = _IDENTITY, _row(leg.points[0])
     axes, points = [], []
     for j in range(len(q)):
         if j:
-            p = _plus(p, _turned(R, leg.points[j] - leg.points[j - 1]))
+            p = _plus(p, _rotated(R, leg.points[j] - leg.points[j - 1]))
         points.append(p)
-        axes.append(_turned(R, leg.axes[j]))
-        R = _rotated(R, leg.axes[j], s[j], c[j])
-    p = _plus(p, _turned(R, leg.tip[:3, 3] - leg.points[-1]))
+        axes.append(_rotated(R, leg.axes[j]))
+        R = _then_about(R, leg.axes[j], s[j], c[j])
+    p = _plus(p, _rotated(R, leg.tip[:3, 3] - leg.points[-1]))
     J = np.empty((6, *q.shape))
     for j, (axis, point) in enumerate(zip(axes, points, strict=True)):
         arm = [p[i] - point[i] for i in range(3)]
@@ -73,10 +73,31 @@ def errors(tip: Tip, R: Matrix, p: list[Number]) -> tuple[Array, Array]:
 
     The angle follows from the Frobenius norm, |R - S| = sqrt(8) sin(angle / 2), which loses no digits where
     the angle is small.
+
+    Args:
+        tip: Poses that were reached, m samples.
+        R: Rotations of the targets, each entry (m,).
+        p: Positions of the targets, each entry (m,) [m].
     """
     distance = np.sqrt(_squares([tip.p[i] - p[i] for i in range(3)]))
     chord = np.sqrt(_squares([tip.R[i][j] - R[i][j] for i in range(3) for j in range(3)]))
     return distance, 2.0 * np.arcsin(np.minimum(chord * (0.5 / np.sqrt(2.0)), 1.0))
+
+
+def reach_slack(leg: LegAxes, R: Matrix, p: list[Number]) -> Array:
+    """How far targets are inside the leg's reach (m,) [m]; negative where the leg is too short.
+
+    Args:
+        leg: The leg.
+        R: Rotations of the targets, each entry (m,).
+        p: Positions of the targets, each entry (m,) [m].
+
+    Returns:
+        Reach minus distance from the hip centre to the ankle of the target pose.
+    """
+    ankle = [float(x) for x in leg.ankle_in_frame]
+    apart = [x - float(hip) + mix(row, ankle) for x, hip, row in zip(p, leg.hip, R, strict=True)]
+    return np.asarray(leg.reach - np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))
 
 
 def components(R: Array, p: Array) -> tuple[Matrix, list[Number]]:
@@ -113,7 +134,7 @@ def _row(values: Array) -> list[Number]:
     return [float(x) for x in values]
 
 
-def _turned(R: Matrix, b: Array) -> list[Number]:
+def _rotated(R: Matrix, b: Array) -> list[Number]:
     weights = [float(x) for x in b]
     return [mix(row, weights) for row in R]
 
@@ -122,8 +143,8 @@ def _plus(a: list[Number], b: list[Number]) -> list[Number]:
     return [x if isinstance(y, float) and y == 0.0 else x + y for x, y in zip(a, b, strict=True)]
 
 
-def _rotated(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
-    """R times the rotation about an axis; two columns turn where the axis is a coordinate axis."""
+def _then_about(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
+    """R times the rotation about an axis; only two columns change where that is a coordinate axis."""
     x = [float(v) for v in axis]
     k = max(range(3), key=lambda i: abs(x[i]))
     a, b = (k + 1) % 3, (k + 2) % 3
@@ -142,14 +163,14 @@ def _rotated(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
 def _rodrigues(R: Matrix, axis: Array, s: Array, c: Array) -> Matrix:
     x, y, z = (float(v) for v in axis)
     d = 1.0 - c
-    turn: Matrix = [
+    rotation: Matrix = [
         [c + d * (x * x), d * (x * y) - s * z, d * (x * z) + s * y],
         [d * (x * y) + s * z, c + d * (y * y), d * (y * z) - s * x],
         [d * (x * z) - s * y, d * (y * z) + s * x, c + d * (z * z)],
     ]
     if R is _IDENTITY:
-        return turn
-    columns = list(zip(*turn, strict=True))
+        return rotation
+    columns = list(zip(*rotation, strict=True))
     return [[_dot3(row, column) for column in columns] for row in R]
 
 

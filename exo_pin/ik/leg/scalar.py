@@ -1,12 +1,11 @@
 """The closed form of a leg for one sample, in plain `math`: an array of one costs ten times as much.
 
-The same steps as `closed_form`, for legs whose axes stand along the coordinate axes (`single` says which);
-the others go through `closed_form` as an array of one.
+The same steps as `closed_form`, for legs whose axes are parallel to the coordinate axes; the others go
+through `closed_form` as an array of one.
 """
 
 from __future__ import annotations
 
-import weakref
 from collections.abc import Callable, Sequence
 from math import acos, asin, atan, atan2, copysign, sqrt
 
@@ -14,69 +13,89 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.ik.leg import closed_form
-from exo_pin.ik.leg.closed_form import STRAIGHT
-from exo_pin.ik.leg.constants import IdealLeg
+from exo_pin.ik.leg.closed_form import STRAIGHT_COSINE
 from exo_pin.ik.leg.forward import Matrix
+from exo_pin.ik.leg.geometry import ClosedFormGeometry, approximate_geometry, exact_geometry
+from exo_pin.robot import LegAxes
 
 Angles = tuple[float, float, float, float, float, float]
 Formula = Callable[[Sequence[float]], Angles]
-_FORMULAS: weakref.WeakKeyDictionary[IdealLeg, Formula] = weakref.WeakKeyDictionary()
 _HIPS = {(1, 0, 2): "z", (2, 0, 1): "y"}  # which thigh axes make the hip's columns 0, 1, 2
 
 
-def formula(leg: IdealLeg, lower: Array, upper: Array) -> Formula:
-    """A function from the 16 numbers of a target pose, row by row, to the joint angles within the limits.
+def exact_formula(leg: LegAxes) -> Formula | None:
+    """The closed form of the leg within its limits, kept with the leg; None where it has none."""
+    return leg.derived(_exact)
 
-    It is made once for each leg and kept.
+
+def approximate_formula(leg: LegAxes) -> Formula | None:
+    """The closed form nearest to the leg, within its limits, kept with the leg; None where none is near."""
+    return leg.derived(_approximate)
+
+
+def _exact(leg: LegAxes) -> Formula | None:
+    geometry = exact_geometry(leg)
+    return None if geometry is None else formula(geometry, leg.lower, leg.upper)
+
+
+def _approximate(leg: LegAxes) -> Formula | None:
+    geometry = approximate_geometry(leg)
+    return None if geometry is None else formula(geometry, leg.lower, leg.upper)
+
+
+def formula(geometry: ClosedFormGeometry, lower: Array, upper: Array) -> Formula:
+    """A function from the 16 numbers of a target pose, row by row, to the joint angles within limits.
+
+    Args:
+        geometry: Constants of the leg.
+        lower: Lower joint limits (6,) [rad].
+        upper: Upper joint limits (6,) [rad].
     """
-    if leg not in _FORMULAS:
-        _FORMULAS[leg] = _formula(leg, lower.tolist(), upper.tolist())
-    return _FORMULAS[leg]
+    order = tuple(int(np.argmax(np.abs(geometry.spread[:, j]))) for j in range(3))
+    along_axes = all(_signed_permutation(x) for x in (geometry.left, geometry.right, geometry.spread))
+    plain = geometry.lateral == 0.0 and not (geometry.wraps or geometry.steep or geometry.ankle[:2].any())
+    if along_axes and plain and order in _HIPS:
+        return _straight_line(geometry, lower.tolist(), upper.tolist(), third=_HIPS[order])
+    return _by_arrays(geometry, lower, upper)
 
 
-def _formula(leg: IdealLeg, lower: list[float], upper: list[float]) -> Formula:
-    order = tuple(int(np.argmax(np.abs(leg.spread[:, j]))) for j in range(3))
-    simple = all(_signed_permutation(x) for x in (leg.left, leg.right, leg.spread))
-    plain = leg.lateral == 0.0 and not leg.wraps and not leg.steep and not leg.ankle[:2].any()
-    if simple and plain and order in _HIPS:
-        return _straight_line(leg, lower, upper, third=_HIPS[order])
-    return _by_arrays(leg, np.asarray(lower), np.asarray(upper))
+def _signed_permutation(rotation: Array) -> bool:
+    return bool((np.sort(np.abs(rotation), axis=1) == [0.0, 0.0, 1.0]).all())
 
 
-def _signed_permutation(turn: Array) -> bool:
-    return bool((np.sort(np.abs(turn), axis=1) == [0.0, 0.0, 1.0]).all())
-
-
-def _by_arrays(leg: IdealLeg, lower: Array, upper: Array) -> Formula:
+def _by_arrays(geometry: ClosedFormGeometry, lower: Array, upper: Array) -> Formula:
     def angles(T: Sequence[float]) -> Angles:
         R: Matrix = [[np.array([T[4 * i + j]]) for j in range(3)] for i in range(3)]
-        q = closed_form.angles(leg, R, [np.array([T[4 * i + 3]]) for i in range(3)])
+        q = closed_form.angles(geometry, R, [np.array([T[4 * i + 3]]) for i in range(3)])
         a, b, c, d, e, f = np.clip(q[:, 0], lower, upper).tolist()
         return a, b, c, d, e, f
 
     return angles
 
 
-def _straight_line(leg: IdealLeg, lower: list[float], upper: list[float], *, third: str) -> Formula:
+def _straight_line(
+    geometry: ClosedFormGeometry, lower: list[float], upper: list[float], *, third: str
+) -> Formula:
     """The formula with the leg's constants bound; `third`: the thigh's axis that is the third hip axis."""
-    row = [int(np.argmax(np.abs(x))) for x in leg.left]
-    column = [int(np.argmax(np.abs(x))) for x in leg.right.T]
+    row = [int(np.argmax(np.abs(x))) for x in geometry.left]
+    column = [int(np.argmax(np.abs(x))) for x in geometry.right.T]
     places = [4 * i + j for i in row for j in column]
     s00, s01, s02, s10, s11, s12, s20, s21, s22 = (
-        float(leg.left[i, row[i]] * leg.right[column[j], j]) for i in range(3) for j in range(3)
+        float(geometry.left[i, row[i]] * geometry.right[column[j], j]) for i in range(3) for j in range(3)
     )
     k00, k01, k02, k10, k11, k12, k20, k21, k22 = places
     t0, t1, t2 = (4 * i + 3 for i in row)
-    u0, u1, u2 = (float(leg.left[i, row[i]]) for i in range(3))
-    h0, h1, h2 = (float(leg.hip[i]) for i in row)
-    drop = float(leg.ankle[2])
-    scale = 0.5 / (leg.thigh * leg.shank)
-    shift = (leg.thigh**2 + leg.shank**2) * scale
-    thigh, shank, bend = leg.thigh, leg.shank, leg.bend
-    m0, m1, m2 = (float(leg.spread[:, j].sum()) for j in range(3))
-    f0, f1, f2, f3, f4, f5 = leg.sign
+    u0, u1, u2 = (float(geometry.left[i, row[i]]) for i in range(3))
+    h0, h1, h2 = (float(geometry.hip[i]) for i in row)
+    drop = float(geometry.ankle[2])
+    scale = 0.5 / (geometry.thigh * geometry.shank)
+    shift = (geometry.thigh**2 + geometry.shank**2) * scale
+    thigh, shank, bend = geometry.thigh, geometry.shank, geometry.knee_sign
+    m0, m1, m2 = (float(geometry.spread[:, j].sum()) for j in range(3))
+    f0, f1, f2, f3, f4, f5 = geometry.sign
     (l0, l1, l2, l3, l4, l5), (g0, g1, g2, g3, g4, g5) = lower, upper
     by_z = third == "z"
+    straight = STRAIGHT_COSINE
 
     def angles(T: Sequence[float]) -> Angles:
         x0, y0, z0 = s00 * T[k00], s01 * T[k01], s02 * T[k02]
@@ -86,7 +105,7 @@ def _straight_line(leg: IdealLeg, lower: list[float], upper: list[float], *, thi
         v1 = u1 * (T[t1] - h1) + drop * z1
         v2 = u2 * (T[t2] - h2) + drop * z2
         ck = (v0 * v0 + v1 * v1 + v2 * v2) * scale - shift
-        ck = 1.0 if ck > STRAIGHT else -1.0 if ck < -1.0 else ck
+        ck = 1.0 if ck > straight else -1.0 if ck < -1.0 else ck
         sk = bend * sqrt((1.0 - ck) * (1.0 + ck))
         hx = -(v0 * x0 + v1 * x1 + v2 * x2)
         hy = -(v0 * y0 + v1 * y1 + v2 * y2)

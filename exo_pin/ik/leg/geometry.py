@@ -1,9 +1,9 @@
-"""When a leg has a closed form, and the constants of it, both detected from the leg's own axes.
+"""Geometry of the closed form: when a leg has one, and its lengths, centres and offsets.
 
 Conditions: the three hip axes meet in one point, neighbours at right angles; the knee's axis is parallel to
 the ankle's first; the two ankle axes meet at right angles; and the limits leave one branch: the knee bends to
 one side, the middle of the hip's second and of the ankle's second joint is less than 90 degrees from where
-the formula folds. docs/ik.md derives the formula.
+the formula folds. Everything is read from the leg's own axes; docs/ik.md derives the formula.
 """
 
 from __future__ import annotations
@@ -16,25 +16,25 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.robot.leg_axes import LegAxes
 
-STRAIGHT = 1e-9
-"""How exactly axes must meet [m] or be parallel or at right angles [sine]."""
-_EASY = math.radians(80.0)  # below this the arc sine of a hip angle is as exact as the arc tangent
+_EXACT = 1e-9  # how exactly axes must meet [m] or be parallel or at right angles [sine]
+_APPROXIMATE = 0.2  # the same for a leg whose approximate closed form is a seed [m, sine]
+_ARCSINE = math.radians(80.0)  # below this the arc sine of a hip angle is as exact as the arc tangent
 
 
 @dataclass(frozen=True, eq=False)
-class IdealLeg:
-    """Constants of the closed form, `exo_pin.ik.closed_form`.
+class ClosedFormGeometry:
+    """Constants of the closed form of a leg, `exo_pin.ik.leg.closed_form`.
 
     Attributes:
-        left: (3, 3) what turns world axes into the hip's own (first axis, second axis, their normal).
-        right: (3, 3) what turns the foot's axes into the canonical ones (ankle axes along x and y).
+        left: Rotation (3, 3) from world axes to the hip's own (first axis, second axis, their normal).
+        right: Rotation (3, 3) from the canonical axes of the foot (ankle axes along x and y) to its own.
         hip: Hip centre in the world (3,).
         ankle: Ankle centre in the canonical axes of the foot (3,).
-        spread: (3, 3) from the canonical thigh to the third hip axis's frame.
+        spread: Rotation (3, 3) between the canonical thigh and the frame of the third hip axis.
         thigh: Length [m].
         shank: Length [m].
         lateral: Distance of the hip from the ankle along the knee's axis [m].
-        bend: +1 or -1, the side to which the knee bends.
+        knee_sign: +1 or -1, the side to which the knee bends.
         sign: Sense of each joint (6,).
         offset: Angle of each joint where its canonical angle is zero (6,) [rad].
         middle: Middle of each joint's range (6,) [rad].
@@ -50,7 +50,7 @@ class IdealLeg:
     thigh: float
     shank: float
     lateral: float
-    bend: float
+    knee_sign: float
     sign: tuple[float, ...]
     offset: tuple[float, ...]
     middle: tuple[float, ...]
@@ -58,16 +58,28 @@ class IdealLeg:
     steep: bool
 
 
-def ideal(leg: LegAxes, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
-    """The constants of the leg's closed form, or None where it has none.
+def exact_geometry(leg: LegAxes) -> ClosedFormGeometry | None:
+    """The geometry of a leg that has a closed form, kept with the leg; None where it has none."""
+    return leg.derived(_exact)
 
-    Args:
-        leg: The leg.
-        tolerance: How exactly the conditions must hold. With a large one, the constants are those of the
-            nearest ideal leg: a seed for a leg whose axes are calibrated.
+
+def approximate_geometry(leg: LegAxes) -> ClosedFormGeometry | None:
+    """The geometry of the closed form nearest to the leg, a seed for a leg whose axes are calibrated.
+
+    It is kept with the leg; None where the axes are too far from the conditions.
     """
-    if not _meets(leg, tolerance):
-        return None
+    return leg.derived(_approximate)
+
+
+def _exact(leg: LegAxes) -> ClosedFormGeometry | None:
+    return _geometry(leg) if _deviation(leg) <= _EXACT else None
+
+
+def _approximate(leg: LegAxes) -> ClosedFormGeometry | None:
+    return _geometry(leg) if _deviation(leg) <= _APPROXIMATE else None
+
+
+def _geometry(leg: LegAxes) -> ClosedFormGeometry | None:
     hip, ankle, a = leg.hip, leg.ankle, leg.axes
     y = a[3]
     to_knee, to_ankle = leg.points[3] - hip, ankle - leg.points[3]
@@ -90,7 +102,7 @@ def ideal(leg: LegAxes, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
     right = leg.tip[:3, :3].T @ C.T @ _about_y(pitch)
     if not _one_branch(leg, offset):
         return None
-    return IdealLeg(
+    return ClosedFormGeometry(
         left=_clean(H.T),
         right=_clean(right),
         hip=hip,
@@ -99,23 +111,24 @@ def ideal(leg: LegAxes, *, tolerance: float = STRAIGHT) -> IdealLeg | None:
         thigh=thigh,
         shank=shank,
         lateral=lateral if abs(lateral) > 1e-12 else 0.0,
-        bend=1.0 if middle[3] > offset[3] else -1.0,
+        knee_sign=1.0 if middle[3] > offset[3] else -1.0,
         sign=sign,
         offset=tuple(0.0 if abs(x) < 1e-12 else x for x in offset),
         middle=tuple(float(x) for x in middle),
         wraps=tuple(
             j for j in range(6) if offset[j] or abs(leg.lower[j]) > math.pi or abs(leg.upper[j]) > math.pi
         ),
-        steep=bool(max(abs(leg.lower[1] + third), abs(leg.upper[1] + third)) > _EASY),
+        steep=bool(max(abs(leg.lower[1] + third), abs(leg.upper[1] + third)) > _ARCSINE),
     )
 
 
-def _meets(leg: LegAxes, tolerance: float) -> bool:
+def _deviation(leg: LegAxes) -> float:
+    """How far the axes are from meeting [m], being parallel and at right angles [sine]."""
     a, p = leg.axes, leg.points
     apart = [np.linalg.norm(np.cross(a[j], leg.hip - p[j])) for j in range(3)]
     apart += [np.linalg.norm(np.cross(a[j], leg.ankle - p[j])) for j in (4, 5)]
     apart += [abs(a[0] @ a[1]), abs(a[1] @ a[2]), abs(a[4] @ a[5]), np.linalg.norm(np.cross(a[3], a[4]))]
-    return bool(max(apart) <= tolerance)
+    return float(max(apart))
 
 
 def _one_branch(leg: LegAxes, offset: tuple[float, ...]) -> bool:
@@ -137,7 +150,7 @@ def _hip_frame(a: Array) -> tuple[Array, float, float]:
 
 
 def _angle_about_y(shin: Array) -> float:
-    """The angle about y that turns -z into the shin."""
+    """The angle of the rotation about y that takes -z to the shin."""
     return math.atan2(-shin[0], -shin[2])
 
 
