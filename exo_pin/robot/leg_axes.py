@@ -56,7 +56,7 @@ class LegAxes:
 
     @cached_property
     def reach_error(self) -> float:
-        """How far the reach may be off because the axes do not meet exactly [m]."""
+        """By how much the reach may be wrong because the axes do not meet exactly [m]."""
         apart = [np.linalg.norm(np.cross(self.axes[j], self.hip - self.points[j])) for j in range(3)]
         apart += [np.linalg.norm(np.cross(self.axes[j], self.ankle - self.points[j])) for j in (4, 5)]
         skew = np.linalg.norm(np.cross(self.axes[3], self.axes[4])) * self.reach

@@ -1,4 +1,4 @@
-"""Loading: from a body, or from any URDF, to a `Robot`."""
+"""Loading a `Robot`: from a body and a device, or from any URDF."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def load_urdf(
         base: `"fixed"` or `"floating"`.
         placement: Pose of the root link in the world (4, 4); the identity if left out.
         hip_order: Order of its hip joints, should it have the joints of `JOINTS`.
-        path: Where a text comes from: the viewer looks for its meshes there.
+        path: File that a text comes from, beside which the viewer finds its meshes.
 
     Raises:
         DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts.
@@ -83,7 +83,7 @@ def load_urdf(
             raise DescriptionError(f"joint {name!r} is not revolute or prismatic with limits")
     stand = np.eye(4) if placement is None else np.array(placement, dtype=float)
     if base == "fixed":
-        _stand(model, pin.SE3(stand))
+        _place(model, pin.SE3(stand))
     k = len(names)
     return Robot(
         model=model,
@@ -109,8 +109,8 @@ def _text(source: str | Path) -> str:
         raise DescriptionError(f"{source}: cannot be read: {error}") from None
 
 
-def _stand(model: Any, placement: Any) -> None:
-    """Move everything that hangs on the world, so that Pinocchio's world is W."""
+def _place(model: Any, placement: Any) -> None:
+    """Place the root link in the world W: move every joint and frame that the world carries."""
     for j in range(1, model.njoints):
         if model.parents[j] == 0:
             model.jointPlacements[j] = placement * model.jointPlacements[j]

@@ -1,4 +1,4 @@
-"""`Robot`: a Pinocchio model whose joints, frames and limits go by name."""
+"""`Robot`: a Pinocchio model addressed by the names of its joints and frames, its legs and subtrees."""
 
 from __future__ import annotations
 
@@ -27,8 +27,7 @@ from exo_pin.robot.subtree import Subtree, independent_groups, read_subtree, sup
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _HIPS = HIP_ORDERS["clinical"]
 
-ROUNDING = 1e-9
-"""A joint this little beyond its limit is on it [rad]."""
+_ROUNDING = 1e-9  # a joint this little beyond its limit lies on it [rad, m]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,17 +38,17 @@ class Robot:
         model: Pinocchio's model. Its world is W; a fixed pelvis stands at `placement`.
         urdf: The text it was built from.
         joints: Names of the driven joints in the order of q (behind the floating base's 7 numbers, if any).
-        lower: Lower joint limits (J,) [rad].
-        upper: Upper joint limits (J,) [rad].
-        velocity: Largest joint speeds (J,) [rad/s].
-        effort: Largest joint torques (J,) [N m].
+        lower: Lower joint limits (J,) [rad]; of prismatic joints [m].
+        upper: Upper joint limits (J,) [rad]; of prismatic joints [m].
+        velocity: Largest joint speeds (J,) [rad/s]; of prismatic joints [m/s].
+        effort: Largest joint torques (J,) [N m]; of prismatic joints [N].
         placement: T_world_pelvis (4, 4) at rest: the longer leg's sole is on the ground at q = 0 (slides that
             carry the pelvis are in q, so at q = 0 this is the stand's pose too).
         base: `"fixed"` or `"floating"`.
         body: The body it was made for; None for a URDF from elsewhere.
         hip_order: Order of the hip joints from the pelvis outwards.
         device: The device it was made from; None for a URDF from elsewhere.
-        path: The file that the URDF was read from, where its meshes are looked for; None for a text.
+        path: The file that the URDF was read from, beside which its meshes are found; None for a text.
     """
 
     model: Any
@@ -135,12 +134,12 @@ class Robot:
             )
         return q[..., self.nq - len(self.joints) :]
 
-    def outside(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> Mask:
+    def outside(self, q: npt.ArrayLike, *, tolerance: float = _ROUNDING) -> Mask:
         """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
         angles = self.angles(q)
         return np.asarray(~((angles >= self.lower - tolerance) & (angles <= self.upper + tolerance)))
 
-    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = ROUNDING) -> None:
+    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = _ROUNDING) -> None:
         """Refuse configurations (..., nq) outside the joint limits.
 
         Args:
@@ -201,7 +200,7 @@ class Robot:
         return self._groups[key]
 
     def base_of(self, gait: Gait) -> Array | None:
-        """What `base=` means for a gait on this robot: its base, or None where that stands in q already."""
+        """The `base=` of a gait on this robot: the gait's own; None for a floating base, which q holds."""
         return gait.base if self.base == "fixed" else None
 
     def from_gait(self, gait: Gait) -> Array:
@@ -220,9 +219,13 @@ class Robot:
         return q
 
     def to_gait(self, q: npt.ArrayLike, like: Gait) -> Gait:
-        """The way back: configurations (n, nq) as a gait with time, events and (if held) base of `like`.
+        """Configurations (n, nq) as a gait, the inverse of `from_gait`.
 
         Joints that the device locks are zero. Slides move the base: it is the pelvis's, not the stand's.
+
+        Args:
+            q: Configurations (n, nq) [rad, m].
+            like: Gives time, events and, for a held pelvis, the base.
         """
         q = np.asarray(q, dtype=float)
         base = like.base

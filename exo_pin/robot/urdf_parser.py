@@ -1,4 +1,4 @@
-"""Pinocchio's URDF parser, its complaints in one message instead of lines on the console."""
+"""Pinocchio's URDF parser, its error output in one exception instead of lines on the console."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ def built(text: str, *root: Any) -> Any:
     """Pinocchio's model of a URDF's text; `root` is the joint of a floating base, if any.
 
     Raises:
-        DescriptionError: It is no URDF that Pinocchio accepts; the message says what its parser said first.
+        DescriptionError: Pinocchio does not accept it; the message holds the parser's first error.
     """
-    said: list[str] = []
+    lines: list[str] = []
     try:
-        with _heard(said):
+        with _captured(lines):
             return pin.buildModelFromXML(text, *root)
     except (ValueError, RuntimeError) as error:
-        first = re.search(r"Error:\s*(.+)", "".join(said))
+        first = re.search(r"Error:\s*(.+)", "".join(lines))
         why = str(error) if first is None else first[1].strip()
         raise DescriptionError(f"Pinocchio does not accept this URDF: {why}") from None
 
 
 @contextlib.contextmanager
-def _heard(said: list[str]) -> Iterator[None]:
-    """What C++ code writes to the standard error file meanwhile, and nobody else sees."""
+def _captured(lines: list[str]) -> Iterator[None]:
+    """Collect what C++ code writes to the standard error file, instead of printing it."""
     sys.stderr.flush()
     try:
         kept = os.dup(2)
-    except OSError:  # there is none
+    except OSError:  # the process has no standard error
         yield
         return
     with tempfile.TemporaryFile() as file:
@@ -48,4 +48,4 @@ def _heard(said: list[str]) -> Iterator[None]:
             os.dup2(kept, 2)
             os.close(kept)
             file.seek(0)
-            said.append(file.read().decode(errors="replace"))
+            lines.append(file.read().decode(errors="replace"))
