@@ -1,8 +1,9 @@
-"""Files in and out: a size cap when reading, never a half-written file when writing."""
+"""Files in and out: a size cap when reading, never a half-written file when writing; numbers for JSON."""
 
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import secrets
 from pathlib import Path
@@ -87,6 +88,11 @@ def write_bytes(path: str | Path, data: bytes) -> None:
             _replace(target, data)
     except (OSError, ValueError) as error:
         raise FormatError(shown, f"cannot be written: {_reason(error)}") from error
+
+
+def json_number(value: float) -> float | None:
+    """A number for JSON, which knows no NaN: None (`null`) stands for it."""
+    return None if math.isnan(value) else float(value)
 
 
 def _replace(target: Path, data: bytes) -> None:

@@ -1,7 +1,7 @@
-"""Cross-checks: forward kinematics four ways, inverse against forward, joint limits, a verdict."""
+"""Cross-checks: forward kinematics four ways, inverse against forward kinematics, joint limits, a verdict."""
 
 from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, BENT_KNEE, IK_TOLERANCE, Recovery, recover
-from exo_pin.crosscheck.verdict import Check, check, limits
+from exo_pin.crosscheck.verdict import Check, check
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 
 __all__ = [
@@ -13,6 +13,5 @@ __all__ = [
     "Recovery",
     "check",
     "forward",
-    "limits",
     "recover",
 ]

@@ -1,4 +1,4 @@
-"""Forward kinematics four ways: the witnesses of `dh` and yourdfpy against Pinocchio."""
+"""Forward kinematics four ways: the independent models of `dh` and yourdfpy against Pinocchio."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ FK_TOLERANCE = 1e-12
 """Largest difference between two ways of forward kinematics [m, and of a rotation matrix's entries]."""
 
 _SAMPLES = 200
-"""Configurations that yourdfpy is asked for: it takes a millisecond each."""
+"""Configurations that yourdfpy computes: it takes a millisecond for each."""
 
 _GRID = 6
-"""Decimals of the angles that yourdfpy is asked for: the scene graph below it leaves out turns, and changes
-of a turn, below 1e-8 rad."""
+"""Decimals of the angles given to yourdfpy: its scene graph ignores rotations, and changes of them, below
+1e-8 rad."""
 
 
 def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
@@ -59,14 +59,14 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
 
 
 def _difference(robot: Robot, q: Array, poses_of: dict[str, Array]) -> float:
-    """Largest difference in any entry of any pose, all relative to the pelvis (or the stand it slides on)."""
+    """Largest difference in any entry of any pose relative to the pelvis (or to the stand of its slides)."""
     names = tuple(poses_of)
     ours = poses(robot, q, names, base=np.eye(4))
     return float(max(np.abs(poses_of[name] - ours[:, k]).max() for k, name in enumerate(names)))
 
 
 def _yourdfpy(robot: Robot, q: Array) -> dict[str, Array]:
-    """Poses by yourdfpy, which reads the same URDF with code of its own."""
+    """Poses by yourdfpy, an independent reader of the same URDF."""
     import yourdfpy  # 0.5 s, needed here only
 
     scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)

@@ -1,4 +1,4 @@
-"""From one walk to another: mixed at equal phases, in one share or in a share that grows with time."""
+"""Blends of two walks at equal phases: with a constant share, or as a transition from one to the other."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from exo_pin.gait import Event, Gait
 from exo_pin.gait.curves import at_phase
 from exo_pin.gait.rigid import nearest_pose
 
-BENDING = 0.9
-"""A phase that runs slower than this part below its even course would soon run backwards."""
+_LARGEST_WARP = 0.9
+"""Largest relative change of a phase's rate by the time warp; at 1 the phase would run backwards."""
 
-ROUNDS = 30
-"""Fixed-point steps that find an event's phase; each leaves a small part of the error of the one before."""
+_ITERATIONS = 30
+"""Of the fixed-point and Newton iterations for phases; each leaves a small part of the error before it."""
 
 
 def blended(first: Gait, second: Gait, *, share: float = 0.5) -> Gait:
     """A walk between two periodic ones: every angle, the pelvis and the period mixed at equal phase.
 
-    Phases are those of the heel strikes, where both walks know them; else of the cycles' beginnings.
+    Phases count from the heel strikes where both walks have them, else from the starts of the cycles.
 
     Args:
         first: The walk at share 0.
         second: The walk at share 1.
-        share: Between 0 and 1. `transitioned` goes over from one to the other.
+        share: Of the second walk, between 0 and 1.
 
     Raises:
         GaitError: One of them is not periodic, or the share is not between 0 and 1.
@@ -61,20 +61,20 @@ def transitioned(
 ) -> Gait:
     """Some cycles of one walk, a smooth transition, and some cycles of another one.
 
-    The second walk's share grows from 0 to 1 as 10 s^3 - 15 s^4 + 6 s^5, and the time that a cycle takes goes
-    over in the same way. Angles and pelvis are mixed at equal phases, told by the heel strikes of both feet.
-    All of it has two continuous derivatives in time: no jump of an angle, a velocity or an acceleration.
+    The second walk's share grows from 0 to 1 as 10 s^3 - 15 s^4 + 6 s^5, and so does its share of the cycle's
+    duration. Angles and pelvis are mixed at equal phases, counted from the heel strikes of both feet. The
+    result has two continuous derivatives in time: angle, velocity and acceleration do not jump.
 
     Args:
-        first: The walk that it begins with, from a left heel strike on; periodic.
-        second: The walk that it ends with; periodic.
+        first: The walk at the start, from a left heel strike on; periodic.
+        second: The walk at the end; periodic.
         cycles: Length of the transition in cycles.
-        seconds: Its length in time instead [s].
+        seconds: Length of the transition in time instead [s].
         before: Cycles of the first walk.
         after: Cycles of the second walk.
 
     Returns:
-        A recording with events, even in time.
+        A recording with events, evenly sampled.
 
     Raises:
         GaitError: A walk is not periodic, a length is not positive, or heel strikes are too far apart.
@@ -101,7 +101,7 @@ def transitioned(
     n = max(2, int(np.ceil(end / min(T[0] / len(first), T[1] / len(second)))) + 1)
     time = np.linspace(0, end, n)
     phase = time / end * total
-    for _ in range(ROUNDS):  # Newton: the clock is smooth and always runs forward
+    for _ in range(_ITERATIONS):  # Newton's method: the clock is smooth and strictly increasing
         phase = np.clip(phase - (clock(phase) - time) / (T[0] + (T[1] - T[0]) * share(phase)), 0, total)
     q, base = pair.mixed(phase, share(phase))
     events = _events(pair, share, clock, total)
@@ -115,8 +115,8 @@ class _Pair(NamedTuple):
 
     Attributes:
         walks: Both.
-        starts: Phases of the left heel strikes in the walks' own cycles.
-        rights: Phases of the right heel strikes after them; equal where one of them is unknown.
+        starts: Phase of the left heel strike in each walk's own cycle.
+        rights: Phase of the right heel strike after it; 0.5 for both where one is unknown.
     """
 
     walks: tuple[Gait, Gait]
@@ -125,7 +125,11 @@ class _Pair(NamedTuple):
 
     @classmethod
     def of(cls, first: Gait, second: Gait) -> _Pair:
-        """Both walks, looked at for their heel strikes."""
+        """Both walks with the phases of their heel strikes.
+
+        Raises:
+            GaitError: A walk is not periodic, or their right heel strikes are too far apart.
+        """
         if not (first.periodic and second.periodic):
             raise GaitError(
                 "only periodic gaits can be blended: a recording's mean cycle is one (edit --cycle)"
@@ -137,7 +141,7 @@ class _Pair(NamedTuple):
         if right[0] is not None and right[1] is not None and None not in left:
             rights = ((right[0] - starts[0]) % 1, (right[1] - starts[1]) % 1)
         pair = cls(walks, starts, rights)
-        if abs(rights[0] - rights[1]) * np.pi / np.sin(np.pi * np.array(rights)).min() ** 2 > BENDING:
+        if abs(rights[0] - rights[1]) * np.pi / np.sin(np.pi * np.array(rights)).min() ** 2 > _LARGEST_WARP:
             raise GaitError(
                 f"right heel strikes at {rights[0]:.0%} and {rights[1]:.0%} of the cycle are too far apart"
             )
@@ -164,7 +168,7 @@ class _Pair(NamedTuple):
         return np.asarray(q), nearest_pose(np.asarray(flat).reshape(-1, 4, 4))
 
     def phase(self, event: Event, share: float) -> float:
-        """Where an event of one of the walks lies in their mixture; as there if the other has none such."""
+        """Phase of an event of one walk in the blend; unchanged if the other walk has no such event."""
         own = [self._of(event, k) for k in range(2)]
         if own[0] is None or own[1] is None:
             return own[0] or own[1] or 0.0
@@ -179,14 +183,14 @@ class _Pair(NamedTuple):
         return None
 
     def _own(self, k: int, phase: Array, share: Array) -> Array:
-        """The phase in a walk's own cycle: bent so that both right heel strikes fall together."""
+        """The phase in a walk's own cycle, warped so that the right heel strikes of both walks coincide."""
         right = (1 - share) * self.rights[0] + share * self.rights[1]
-        bend = (self.rights[k] - right) * (np.sin(np.pi * phase) / np.sin(np.pi * right)) ** 2
-        return np.asarray(phase + bend + self.starts[k])
+        warp = (self.rights[k] - right) * (np.sin(np.pi * phase) / np.sin(np.pi * right)) ** 2
+        return np.asarray(phase + warp + self.starts[k])
 
 
 def _strike(walk: Gait, side: Side) -> float | None:
-    """Phase of a foot's first heel strike, if the walk knows it."""
+    """Phase of a foot's first heel strike, if the walk has one."""
     times = [e.time for e in walk.events if e.side == side and e.kind == "heel_strike"]
     return times[0] / walk.duration if times else None
 
@@ -199,7 +203,7 @@ def _events(
     for event in pair.walks[0].events:
         for cycle in range(-1, int(total) + 2):
             at = np.array([float(cycle)])
-            for _ in range(ROUNDS):
+            for _ in range(_ITERATIONS):
                 at = np.array([cycle + pair.phase(event, float(share(at)[0]))])
             if 0 <= at[0] <= total:
                 found.append(dataclasses.replace(event, time=float(clock(at)[0])))

@@ -1,4 +1,4 @@
-"""Adjustments of joint curves and time: every function gives a new gait that says what was done to it."""
+"""Adjustments of joint curves and time; the source of every new gait records the adjustment."""
 
 from __future__ import annotations
 
@@ -14,24 +14,29 @@ from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.rigid import nearest_pose
 
-STEP = 0.01
-"""Samples of a ramp are this close [s], or as close as the walk's own."""
+_RAMP_STEP = 0.01
+"""Largest time between samples of a ramp [s]; the walk's own where that is smaller."""
 
 
 def retimed(gait: Gait, *, duration: float | None = None, factor: float | None = None) -> Gait:
-    """The same motion in another time: its whole length, or the factor by which it takes longer.
+    """The same motion over another duration, given directly or by a factor.
+
+    Args:
+        gait: The walk.
+        duration: The new duration [s].
+        factor: New over old duration; above 1: slower.
 
     Raises:
-        GaitError: Neither or both are given, or it is not positive.
+        GaitError: Neither or both are given, or the value is not positive.
     """
     if (duration is None) == (factor is None):
         raise GaitError("retimed needs either a duration [s] or a factor")
     ratio = factor if factor is not None else (duration or 0.0) / gait.duration
-    return _told(gait.slowed(ratio), f"retimed x{ratio:.4g}")
+    return _recorded(gait.slowed(ratio), f"retimed x{ratio:.4g}")
 
 
 def scaled(gait: Gait, factors: Mapping[str, float]) -> Gait:
-    """Joint amplitudes times factors, about each joint's own mean over the walk.
+    """Joint amplitudes scaled by factors, about each joint's own mean over the walk.
 
     Args:
         gait: The walk.
@@ -51,16 +56,16 @@ def scaled(gait: Gait, factors: Mapping[str, float]) -> Gait:
         mean = q[:, columns].mean(axis=0)
         q[:, columns] = mean + factor * (q[:, columns] - mean)
     words = ", ".join(f"{name} x{factor:g}" for name, factor in factors.items())
-    return _told(dataclasses.replace(gait, q=q), f"amplitude {words}")
+    return _recorded(dataclasses.replace(gait, q=q), f"amplitude {words}")
 
 
 def mirrored(gait: Gait) -> Gait:
-    """Left and right change places."""
-    return _told(gait.mirrored(), "mirrored")
+    """Left and right interchanged."""
+    return _recorded(gait.mirrored(), "mirrored")
 
 
 def symmetrised(gait: Gait) -> Gait:
-    """Both sides the same, half a cycle apart: the mean of the walk and its mirror image half a cycle later.
+    """Both sides alike, half a cycle apart: the mean of the walk and its mirror image half a cycle later.
 
     Raises:
         GaitError: The gait is not periodic (cut it into cycles and take their mean first).
@@ -75,26 +80,26 @@ def symmetrised(gait: Gait) -> Gait:
         shifted = np.roll(_or_raise(other.base), half, axis=0)
         base = nearest_pose((even.base + shifted) / 2)
     q = (even.q + np.roll(other.q, half, axis=0)) / 2
-    return _told(dataclasses.replace(even, q=q, base=base, events=_even_events(even)), "symmetrised")
+    return _recorded(dataclasses.replace(even, q=q, base=base, events=_even_events(even)), "symmetrised")
 
 
 def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
-    """A slow start and a slow stop: time runs up from standing still and down again, without a jolt.
+    """The walk with a slow start from rest and a slow stop; accelerations stay finite.
 
-    The path of the angles stays the walk's own; only how quickly it is run through changes. A periodic gait
-    is walked once around and on as far as the ramps need.
+    The path of the angles stays the same; only the rate at which it is followed changes. A periodic gait is
+    repeated for as many cycles as the ramps need, and one more.
 
     Args:
         gait: The walk.
-        start: Length of the run-up [s].
-        stop: Length of the run-down [s].
+        start: Duration of the start from rest [s].
+        stop: Duration of the stop [s].
 
     Raises:
         GaitError: A ramp is negative, or the recording is shorter than half of both ramps.
     """
     if not (start >= 0 and stop >= 0 and np.isfinite(start + stop)):
         raise GaitError(f"ramps of {start} s and {stop} s: expected 0 or more")
-    need = (start + stop) / 2  # a ramp covers half its time of the walk
+    need = (start + stop) / 2  # a ramp follows the walk at half the rate on average
     walk = gait
     if gait.periodic:
         walk = gait.repeated(2 + int(np.ceil(need / gait.duration)))
@@ -104,14 +109,19 @@ def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
             f"the recording lasts {span:.3g} s; ramps of {start:g} s and {stop:g} s need {need:g} s"
         )
     total = span + need
-    n = max(2, round(total / min(STEP, span / (len(walk) - 1))) + 1)
+    n = max(2, round(total / min(_RAMP_STEP, span / (len(walk) - 1))) + 1)
     time = np.linspace(0, total, n)
-    phase = walk.time[0] + np.clip(_run(time, start, total - stop, total), 0, span)
-    return _told(_along(walk, time, phase), f"ramped {start:g} s up, {stop:g} s down")
+    phase = walk.time[0] + np.clip(_ramped_time(time, start, total - stop, total), 0, span)
+    return _recorded(_along(walk, time, phase), f"ramped {start:g} s up, {stop:g} s down")
 
 
 def filtered(gait: Gait, *, cutoff: float = signals.CUTOFF, order: int = signals.ORDER) -> Gait:
-    """Angles and pelvis through a zero-lag Butterworth filter; order and cut-off are kept in the source.
+    """Angles and pelvis low-pass filtered without lag (Butterworth); the source records order and cut-off.
+
+    Args:
+        gait: The walk; a periodic one is filtered as an endless repetition.
+        cutoff: Cut-off frequency [Hz].
+        order: Order of forward and backward pass together.
 
     Raises:
         GaitError: Uneven or too few samples, or a cut-off beyond half the sampling rate.
@@ -124,11 +134,11 @@ def filtered(gait: Gait, *, cutoff: float = signals.CUTOFF, order: int = signals
     if walk.base is not None:
         base = nearest_pose(signals.lowpass(walk.time, walk.base, cutoff=cutoff, order=order)[rows])
     words = f"zero-lag Butterworth, order {order} (forward and backward together), cut-off {cutoff:g} Hz"
-    return _told(dataclasses.replace(gait, q=q, base=base), words)
+    return _recorded(dataclasses.replace(gait, q=q, base=base), words)
 
 
-def _run(t: Array, up: float, down: float, end: float) -> Array:
-    """How much of the walk has passed at time t: its rate grows from 0 to 1 and falls again, smoothly."""
+def _ramped_time(t: Array, up: float, down: float, end: float) -> Array:
+    """Time of the walk (n,) at times t (n,) of the ramped one [s]; its rate rises to 1 and falls again."""
     rise = t / 2 if up == 0 else _integral(t / up) * up
     passed = np.where(t < up, rise, up / 2 + (t - up))
     if end > down:
@@ -144,7 +154,7 @@ def _integral(s: Array) -> Array:
 
 
 def _along(walk: Gait, time: Array, phase: Array) -> Gait:
-    """The walk run through as `phase` says, with its events where they fall."""
+    """The walk followed at the times `phase` of its own clock (n,), its events moved along."""
     from scipy.interpolate import CubicSpline  # 0.3 s, needed here only
 
     q = CubicSpline(walk.time, walk.q)(phase)
@@ -152,7 +162,7 @@ def _along(walk: Gait, time: Array, phase: Array) -> Gait:
     if walk.base is not None:
         base = nearest_pose(CubicSpline(walk.time, walk.base)(phase))
     inside = [event for event in walk.events if phase[0] <= event.time <= phase[-1]]
-    strictly = 1e-12 * np.arange(len(phase))  # so that it can be turned around
+    strictly = 1e-12 * np.arange(len(phase))  # so that it can be inverted
     grown = np.maximum.accumulate(phase + strictly)
     events = [dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside]
     return Gait(time, q, base=base, events=events, source=walk.source)
@@ -172,6 +182,6 @@ def _or_raise(base: Array | None) -> Array:
     return base
 
 
-def _told(gait: Gait, what: str) -> Gait:
-    """The gait, its source saying what was done."""
+def _recorded(gait: Gait, what: str) -> Gait:
+    """The gait with the adjustment recorded in its source."""
     return dataclasses.replace(gait, source=f"{gait.source}; {what}" if gait.source else what)

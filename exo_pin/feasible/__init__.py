@@ -1,22 +1,21 @@
-"""Whether a device can do a walk with a person: limits, self-collision, reach, and how much is possible.
+"""Feasibility of a walk on a device: limits, self-collision, reach, and how much of the walk is possible.
 
-Torques are asked where they are given (`exo_pin.gait.Torques`): working them out needs the ground's forces.
+Torques count where they are given (`exo_pin.gait.Torques`): computing them needs ground reaction forces.
 """
 
-from exo_pin.demand import ACCELERATION, JointDemand, demands
-from exo_pin.feasible.amplitude import MOST
+from exo_pin.feasible.amplitude import LARGEST_AMPLITUDE
+from exo_pin.feasible.assessment import feasible
 from exo_pin.feasible.collision import Nearest, nearest
-from exo_pin.feasible.feasibility import FASTEST, Feasibility
-from exo_pin.feasible.judge import feasible
+from exo_pin.feasible.device_fit import Fit
+from exo_pin.feasible.feasibility import LARGEST_CADENCE, Failure, Feasibility
 
 __all__ = [
-    "ACCELERATION",
-    "FASTEST",
-    "MOST",
+    "LARGEST_AMPLITUDE",
+    "LARGEST_CADENCE",
+    "Failure",
     "Feasibility",
-    "JointDemand",
+    "Fit",
     "Nearest",
-    "demands",
     "feasible",
     "nearest",
 ]

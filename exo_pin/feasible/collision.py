@@ -1,4 +1,4 @@
-"""Self-collision: how near the parts of a device come to each other, by coal."""
+"""Self-collision: smallest distance between the parts of a device, computed by coal."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 
 _CHAIN = ("pelvis", "thigh", "shank", "sole_plate", "toe_plate")
-"""The links with a shape, from the pelvis outwards: neighbours may touch, only hip or ankle is between."""
+"""The links with a shape, from the pelvis outwards; neighbours share a hip or ankle and may touch."""
 
 
 class Nearest(NamedTuple):
     """The nearest pair of parts at each sample.
 
     Attributes:
-        distance: Between the nearest parts (n,) [m]; negative: how deep they are in each other.
-        pairs: Links that the nearest two parts belong to, at each sample.
+        distance: Between the two nearest parts (n,) [m]; negative: penetration depth.
+        pairs: Links of the two nearest parts, at each sample.
     """
 
     distance: Array
@@ -29,7 +29,7 @@ class Nearest(NamedTuple):
 
 
 def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:
-    """The least distance between parts that are no neighbours.
+    """The smallest distance between parts that are not neighbours.
 
     Args:
         robot: A device of this package; its collision shapes are capsules and boxes.

@@ -1,16 +1,16 @@
-"""The verdict over one walk on one device: what fails, where, and how much of the walk is possible."""
+"""The verdict over one walk on one device: every failure, and how much of the walk is possible."""
 
 from __future__ import annotations
 
-import dataclasses
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Mask
-from exo_pin.demand import ROUNDING, JointDemand
+from exo_pin.demand import JointDemand
 from exo_pin.devices import SLIDES
 from exo_pin.feasible.collision import Nearest
 from exo_pin.feasible.device_fit import Fit
@@ -18,9 +18,29 @@ from exo_pin.gait import Gait
 from exo_pin.gait.curves import runs
 from exo_pin.gait.phases import PHASES, percent
 from exo_pin.robot import Robot
+from exo_pin.robot.model import LIMIT_TOLERANCE
 
-FASTEST = 10.0
-"""Cadences are sought up to this factor."""
+LARGEST_CADENCE = 10.0
+"""Factors on the cadence end here."""
+
+
+class Failure(NamedTuple):
+    """One reason why a walk is not possible.
+
+    Attributes:
+        what: The joint, the pair of parts, the leg, or what does not fit.
+        how: The failure in words.
+        samples: Samples (n,) at which it occurs.
+    """
+
+    what: str
+    how: str
+    samples: Mask
+
+    @property
+    def frames(self) -> list[tuple[int, int]]:
+        """First and last sample of each run of failing samples."""
+        return [(first, stop - 1) for first, stop in runs(self.samples)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,19 +49,19 @@ class Feasibility:
 
     Attributes:
         robot: The device on the body.
-        gait: The walk as the device does it: locked joints at zero.
-        joints: What each joint of the device is asked.
+        gait: The walk on the device, locked joints at zero.
+        joints: The demand on each joint of the device.
         nearest: Distance between its parts.
         gap: Distance that the parts must keep [m].
-        fits: What the device's record says about its belt's speed and the person's stature.
-        reach: By side: least reach to spare between hip and ankle [m]; negative: too far by that much.
-        dropped: By locked joint: the largest angle that the walk asks of it [rad]; and what the pelvis does
-            and the device does not let it (`pelvis.dropped`) [m, rad]. It does not enter the verdict
-            (`exo_pin.compare` says what it costs).
-        cadence: Largest factor on the speed of the whole walk that speeds and accelerations allow; at most
-            `FASTEST`; no cadence helps where something else fails (`cadence_decides`).
-        amplitude: Largest factor on every joint's movement about its mean that the limits and the gap allow,
-            at the walk's own cadence; at most `MOST`; 0 where not even the mean posture is possible.
+        fits: Treadmill speed and stature against the device's record.
+        reach: By side, the smallest remaining reach from hip to ankle [m]; negative: out of reach.
+        dropped: By locked joint, its largest angle in the walk [rad]; and the pelvis's motion that the device
+            blocks (`blocked_motion`) [m, rad]. These do not enter the verdict: `exo_pin.compare` quantifies
+            their loss.
+        cadence: Largest factor on the walk's cadence that the limits on speed and acceleration allow, at most
+            `LARGEST_CADENCE`. It is meaningful only where nothing else fails (`cadence_decides`).
+        amplitude: Largest factor on every joint's movement about its mean that limits and gap allow at the
+            walk's own cadence, at most `LARGEST_AMPLITUDE`; 0 where even the mean posture is impossible.
     """
 
     robot: Robot
@@ -57,96 +77,88 @@ class Feasibility:
 
     @property
     def colliding(self) -> Mask:
-        """Samples (n,) at which parts come nearer than the gap."""
+        """Samples (n,) at which parts come closer than the gap."""
         return self.nearest.distance < self.gap
 
     @property
+    def clearance(self) -> float:
+        """Smallest distance between parts of the device over the walk [m]."""
+        return float(self.nearest.distance.min())
+
+    @property
+    def closest_parts(self) -> tuple[str, str]:
+        """Links of the two parts that come closest."""
+        return self.nearest.pairs[int(self.nearest.distance.argmin())]
+
+    @property
     def ok(self) -> bool:
-        """Every joint within its limits, no parts too near, and nothing out of reach."""
-        return (
-            all(demand.ok for demand in self.joints)
-            and not bool(self.colliding.any())
-            and min(self.reach.values()) >= -ROUNDING
-            and all(fit.ok for fit in self.fits)
-        )
+        """Whether joints keep their limits, parts do not collide, the person fits, and feet are in reach."""
+        return not self.failures
 
     @property
     def cadence_decides(self) -> bool:
-        """Whether speeds and accelerations are all that may fail: ranges and gaps know no cadence."""
+        """Whether only failures that depend on the cadence remain: speeds, accelerations, the treadmill."""
         return not (
-            any((demand.outside | demand.too_strong).any() for demand in self.joints)
+            any(demand.position.outside.any() or _too_strong(demand).any() for demand in self.joints)
             or self.colliding.any()
-            or min(self.reach.values()) < -ROUNDING
-            or any(fit.what == "person" and not fit.ok for fit in self.fits)
+            or self._out_of_reach
+            or self._person_does_not_fit
         )
 
     @property
     def amplitude_decides(self) -> bool:
-        """Whether the amplitude helps: torques at another one are not known, and people keep their size."""
-        return not (
-            any(demand.too_strong.any() for demand in self.joints)
-            or any(fit.what == "person" and not fit.ok for fit in self.fits)
-        )
+        """Whether another amplitude can help: not with the stature, nor with torques (unknown then)."""
+        too_strong = any(_too_strong(demand).any() for demand in self.joints)
+        return not (too_strong or self._person_does_not_fit)
 
     @property
-    def failures(self) -> list[tuple[str, str, Mask]]:
-        """What fails: the joint or pair of parts, how, and at which samples (n,)."""
-        kinds = (
-            ("outside", "outside its range"),
-            ("too_fast", "too fast"),
-            ("too_hard", "accelerated too hard"),
-            ("too_strong", "too much torque"),
-        )
-        found = [
-            (demand.joint, text, getattr(demand, kind))
-            for demand in self.joints
-            for kind, text in kinds
-            if getattr(demand, kind).any()
-        ]
+    def failures(self) -> list[Failure]:
+        """Every reason why the walk is not possible."""
+        found = [failure for demand in self.joints for failure in _joint_failures(demand)]
         if self.colliding.any():
-            a, b = self.nearest.pairs[int(self.nearest.distance.argmin())]
-            found.append((f"{a} and {b}", "too near", self.colliding))
+            found.append(Failure(" and ".join(self.closest_parts), "too near", self.colliding))
         always = np.ones(len(self.gait), dtype=bool)
-        found += [(fit.what, fit.how, always) for fit in self.fits if not fit.ok]
-        short = (side for side, slack in self.reach.items() if slack < -ROUNDING)
-        return found + [(f"{side} leg", "out of reach", always) for side in short]
+        found += [Failure(fit.what, fit.how, always) for fit in self.fits if not fit.ok]
+        return found + [Failure(f"{side} leg", "out of reach", always) for side in self._out_of_reach]
 
     def phases(self, mask: Mask, name: str) -> list[str]:
-        """Phases of the cycle in which marked samples lie: of the foot on the joint's side, else the left."""
+        """Phases of the gait cycle that hold marked samples.
+
+        Args:
+            mask: Marked samples (n,).
+            name: A joint or part; the cycle is that of the foot on its side, of the left foot if it has none.
+        """
         side = next((s for s in SIDES if name.startswith(s)), SIDES[0])
         share = percent(self.gait, side)[mask]
         return [p for p, (low, high) in PHASES.items() if ((share >= low) & (share < high)).any()]
 
     @property
     def conditions(self) -> tuple[str, ...]:
-        """What the verdict takes for granted, in sentences."""
-        known = any(demand.torque_use is not None for demand in self.joints)
-        torques = "torques as given" if known else "torques are not asked"
-        plain = f"the joints copy the walk, locked and passive ones at zero; {torques}"
-        return (plain, *(() if self.robot.device is None else self.robot.device.remarks))
+        """Assumptions of the verdict, in sentences."""
+        known = any(demand.torque is not None for demand in self.joints)
+        torques = "torques as given" if known else "torques are not checked"
+        assumed = f"the joints copy the walk, locked and passive ones at zero; {torques}"
+        return (assumed, *(() if self.robot.device is None else self.robot.device.remarks))
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain values for JSON."""
-        least = int(self.nearest.distance.argmin())
         return {
             "device": self.robot.name,
             "ok": self.ok,
-            "joints": {d.joint: _demand(d) for d in self.joints},
-            "clearance_mm": 1e3 * float(self.nearest.distance[least]),
-            "clearance_between": self.nearest.pairs[least],
-            "fits": [
-                {**dataclasses.asdict(fit), "asked": number(fit.asked), "ok": fit.ok} for fit in self.fits
-            ],
+            "joints": {demand.joint: _demand_facts(demand) for demand in self.joints},
+            "clearance_mm": 1e3 * self.clearance,
+            "clearance_between": self.closest_parts,
+            "fits": [fit.facts() for fit in self.fits],
             "reach_to_spare_mm": {side: 1e3 * slack for side, slack in self.reach.items()},
             "failures": [
                 {
-                    "what": name,
-                    "how": how,
-                    "samples": int(mask.sum()),
-                    "frames": [(first, stop - 1) for first, stop in runs(mask)],
-                    "phases": self.phases(mask, name),
+                    "what": failure.what,
+                    "how": failure.how,
+                    "samples": int(failure.samples.sum()),
+                    "frames": failure.frames,
+                    "phases": self.phases(failure.samples, failure.what),
                 }
-                for name, how, mask in self.failures
+                for failure in self.failures
             ],
             "dropped_deg": {
                 joint: float(np.degrees(x)) for joint, x in self.dropped.items() if joint not in SLIDES
@@ -157,24 +169,44 @@ class Feasibility:
             "largest_amplitude_factor": self.amplitude if self.amplitude_decides else None,
         }
 
+    @property
+    def _out_of_reach(self) -> list[str]:
+        return [side for side, slack in self.reach.items() if slack < -LIMIT_TOLERANCE]
 
-def number(value: float) -> float | None:
-    """The value, or None for NaN, which JSON does not know."""
-    return None if np.isnan(value) else value
+    @property
+    def _person_does_not_fit(self) -> bool:
+        return any(fit.what == "person" and not fit.ok for fit in self.fits)
 
 
-def _demand(demand: JointDemand) -> dict[str, Any]:
-    unit, scale = ("mm", 1e3) if demand.slide else ("deg", float(np.degrees(1.0)))
+def _too_strong(demand: JointDemand) -> Mask:
+    if demand.torque is None:
+        return np.zeros(len(demand.position.required), dtype=bool)
+    return demand.torque.exceeded
+
+
+def _joint_failures(demand: JointDemand) -> Iterator[Failure]:
+    kinds = (
+        ("outside its range", demand.position.outside),
+        ("too fast", demand.speed.exceeded),
+        ("accelerated too hard", demand.acceleration.exceeded),
+        ("too much torque", _too_strong(demand)),
+    )
+    yield from (Failure(demand.joint, how, samples) for how, samples in kinds if samples.any())
+
+
+def _demand_facts(demand: JointDemand) -> dict[str, Any]:
+    unit, scale = ("mm", 1e3) if demand.prismatic else ("deg", float(np.degrees(1.0)))
+    position = demand.position
     values = {
-        "min": demand.q.min(),
-        "max": demand.q.max(),
-        "lower": demand.lower,
-        "upper": demand.upper,
-        "margin": demand.margin,
+        "min": position.lowest,
+        "max": position.highest,
+        "lower": position.available[0],
+        "upper": position.available[1],
+        "margin": position.margin,
     }
-    return {f"{name}_{unit}": float(scale * x) for name, x in values.items()} | {
-        "speed_use": demand.speed_use,
-        "acceleration_use": demand.acceleration_use,
-        "torque_use": demand.torque_use,
+    return {f"{name}_{unit}": scale * x for name, x in values.items()} | {
+        "speed_use": demand.speed.use,
+        "acceleration_use": demand.acceleration.use,
+        "torque_use": None if demand.torque is None else demand.torque.use,
         "ok": demand.ok,
     }

@@ -27,7 +27,8 @@ from exo_pin.robot.subtree import Subtree, independent_groups, read_subtree, sup
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _HIPS = HIP_ORDERS["clinical"]
 
-_ROUNDING = 1e-9  # a joint this little beyond its limit lies on it [rad, m]
+LIMIT_TOLERANCE = 1e-9
+"""A value this little beyond its limit is on it [rad, rad/s, rad/s^2, m]: the excess is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,12 +135,12 @@ class Robot:
             )
         return q[..., self.nq - len(self.joints) :]
 
-    def outside(self, q: npt.ArrayLike, *, tolerance: float = _ROUNDING) -> Mask:
+    def outside(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> Mask:
         """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
         angles = self.angles(q)
         return np.asarray(~((angles >= self.lower - tolerance) & (angles <= self.upper + tolerance)))
 
-    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = _ROUNDING) -> None:
+    def check_limits(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> None:
         """Refuse configurations (..., nq) outside the joint limits.
 
         Args:

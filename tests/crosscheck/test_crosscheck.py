@@ -34,21 +34,20 @@ def test_a_joint_outside_its_limits_is_named_and_counted():
     bent = int((gait.q[:, JOINTS.index("left_knee_flexion")] > np.radians(30)).sum())
     assert not verdict.ok
     assert verdict.fk_ok
-    assert verdict.limits["left_knee_flexion"][2] == bent
-    assert verdict.limits["right_knee_flexion"][2] == 0
+    assert verdict.limits["left_knee_flexion"].samples_outside == bent
+    assert verdict.joints_outside == ["left_knee_flexion"]
     assert verdict.recovery.within.sum() == len(gait.time) - bent
 
 
 def test_the_recorded_walk_is_recovered_within_limits(shared):
     gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
     verdict = crosscheck.check(ROBOT, gait)
-    facts = verdict.facts()["ik"]
     assert verdict.fk_ok
     assert verdict.ik_ok
-    assert facts["max_angle_error_deg"] < np.degrees(1e-6)
-    outside = {joint for joint, (_, _, frames) in verdict.limits.items() if frames}
-    assert outside == {"left_knee_flexion", "right_knee_flexion"}  # the person's knees hyperextend
-    low = np.degrees(min(verdict.limits[joint][0] for joint in outside))
+    assert verdict.recovery.largest_angle_error < 1e-6
+    outside = verdict.joints_outside
+    assert outside == ["left_knee_flexion", "right_knee_flexion"]  # the person's knees hyperextend
+    low = np.degrees(min(verdict.limits[joint].lowest for joint in outside))
     assert low == pytest.approx(-3.2, abs=0.1)
 
 

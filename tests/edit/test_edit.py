@@ -9,7 +9,7 @@ import pytest
 
 from exo_pin import edit
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
-from exo_pin.edit.recheck import JOLT
+from exo_pin.demand import ACCELERATION_LIMIT
 from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS, Gait, curves, normative_gait
 from exo_pin.kinematics import poses, spatiotemporal
@@ -194,10 +194,12 @@ def test_clearance_is_scaled_in_mid_swing_while_standing_feet_stay(robot, walk, 
 @pytest.mark.parametrize(
     ("stride", "clearance"), [(0.7, 1.0), (1.1, 1.0), (1.2, 1.0), (1.0, 0.5), (1.0, 1.5)]
 )
-def test_everyday_adjustments_neither_jolt_nor_lift_standing_feet(robot, speed, stride, clearance):
+def test_everyday_adjustments_keep_accelerations_low_and_standing_feet_down(
+    robot, speed, stride, clearance
+):
     walk = normative_gait(speed)
     changed, track = edit.strided(robot, walk, stride=stride, clearance=clearance)
-    assert np.abs(changed.ddq).max() < NEARLY * JOLT
+    assert np.abs(changed.ddq).max() < NEARLY * ACCELERATION_LIMIT
     assert np.abs(changed.base_acceleration[:, 2]).max() < 6  # [m/s^2] less than free fall: it can be walked
     assert (walk.base - changed.base)[:, 2, 3].min() >= 0
     assert (walk.base - changed.base)[:, 2, 3].max() < 0.065  # [m] and mostly less: the source tells
@@ -222,7 +224,9 @@ def test_a_recorded_stride_is_scaled_like_a_repeated_one(robot, walk):
     again, _ = edit.strided(robot, walk, stride=1.1, clearance=1.3)
     n = len(walk)
     assert np.abs(changed.q[n : 2 * n] - again.q).max() < np.radians(4)  # events differ by 5 % of the cycle
-    assert np.abs(changed.ddq).max() < 1.2 * JOLT  # its events come a few per cent earlier than the file's
+    assert (
+        np.abs(changed.ddq).max() < 1.2 * ACCELERATION_LIMIT
+    )  # its events come a few per cent earlier than the file's
 
 
 def test_what_the_legs_cannot_do_is_refused_with_how_far_they_miss(robot, walk):
@@ -324,10 +328,11 @@ def test_a_transition_needs_repeating_walks_and_a_length(walk):
 
 def test_the_recheck_tells_how_near_the_limits_a_walk_comes(robot, walk):
     found = edit.recheck(robot, walk)
-    joint, inside = found.closest
-    k = robot.joints.index(joint)
+    k = robot.joints.index(found.closest.joint)
     angles = robot.angles(robot.from_gait(walk))
     nearest = min((angles[:, k] - robot.lower[k]).min(), (robot.upper[k] - angles[:, k]).min())
-    assert inside == pytest.approx(nearest)
-    assert found.fastest[1] == pytest.approx(np.abs(walk.dq[:, JOINTS.index(found.fastest[0])]).max())
-    assert found.hardest[1] == pytest.approx(np.abs(walk.ddq).max())
+    assert found.closest.position.margin == pytest.approx(nearest)
+    assert found.fastest.speed.peak == pytest.approx(
+        np.abs(walk.dq[:, JOINTS.index(found.fastest.joint)]).max()
+    )
+    assert found.hardest.acceleration.peak == pytest.approx(np.abs(walk.ddq).max())

@@ -9,9 +9,8 @@ import pytest
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.cli import main
 from exo_pin.errors import UnknownNameError
-from exo_pin.feasible import feasible, nearest
-from exo_pin.feasible.amplitude import MOST, scaled
-from exo_pin.feasible.feasibility import FASTEST
+from exo_pin.feasible import LARGEST_AMPLITUDE, LARGEST_CADENCE, feasible, nearest
+from exo_pin.feasible.amplitude import with_amplitude
 from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.robot import load_robot
@@ -43,8 +42,8 @@ def test_the_largest_cadence_is_where_it_stops_to_be_possible(free):
 
 
 def test_the_largest_amplitude_is_where_it_stops_to_be_possible(free):
-    assert feasible(scaled(GAIT, free.amplitude * (1 - JUST))).ok
-    assert not feasible(scaled(GAIT, free.amplitude * (1 + JUST))).ok
+    assert feasible(with_amplitude(GAIT, free.amplitude * (1 - JUST))).ok
+    assert not feasible(with_amplitude(GAIT, free.amplitude * (1 + JUST))).ok
 
 
 def test_a_joint_outside_its_range_is_named_with_margin_and_phase():
@@ -56,8 +55,8 @@ def test_a_joint_outside_its_range_is_named_with_margin_and_phase():
     assert np.array_equal(mask, GAIT.q[:, KNEE] > np.radians(50))
     assert "initial swing" in verdict.phases(mask, name)
     knee = next(d for d in verdict.joints if d.joint == name)
-    assert knee.margin == pytest.approx(np.radians(50) - GAIT.q[:, KNEE].max())
-    assert feasible(scaled(GAIT, verdict.amplitude * (1 - JUST)), body=body).ok
+    assert knee.position.margin == pytest.approx(np.radians(50) - GAIT.q[:, KNEE].max())
+    assert feasible(with_amplitude(GAIT, verdict.amplitude * (1 - JUST)), body=body).ok
 
 
 def test_a_recording_that_hyperextends_is_refused_and_its_amplitude_told(shared):
@@ -101,7 +100,7 @@ def test_crossed_legs_collide():
     assert not mask[0]
     assert mask[5]
     assert 0.1 < verdict.amplitude < 1
-    apart = feasible(scaled(Gait(np.arange(20) / 10, q), verdict.amplitude)).colliding
+    apart = feasible(with_amplitude(Gait(np.arange(20) / 10, q), verdict.amplitude)).colliding
     assert not apart.any()
 
 
@@ -123,7 +122,7 @@ def test_reach_is_what_a_stretched_knee_would_add(free):
 def test_standing_still_is_possible_at_any_speed():
     verdict = feasible(Gait(np.arange(5) / 10, np.zeros((5, 12))))
     assert verdict.ok
-    assert (verdict.cadence, verdict.amplitude) == (FASTEST, MOST)
+    assert (verdict.cadence, verdict.amplitude) == (LARGEST_CADENCE, LARGEST_AMPLITUDE)
     json.dumps(verdict.facts(), allow_nan=False)
 
 
@@ -161,13 +160,13 @@ def _swaying(amount):
     return dataclasses.replace(GAIT, base=base)
 
 
-def test_slides_are_asked_what_the_pelvis_does():
+def test_prismatic_joints_must_follow_the_pelvis():
     verdict = feasible(_swaying(0.04), "lopes8")
     aside = next(d for d in verdict.joints if d.joint == "pelvis_left")
-    assert aside.slide
-    assert aside.q == pytest.approx(0.04 * np.sin(2 * np.pi * np.arange(50) / 50), abs=1e-9)
-    assert aside.margin == pytest.approx(0.06, abs=1e-3)
-    assert np.abs(aside.dq).max() == pytest.approx(0.04 * 2 * np.pi / GAIT.duration)
+    assert aside.prismatic
+    assert aside.position.required == pytest.approx(0.04 * np.sin(2 * np.pi * np.arange(50) / 50), abs=1e-9)
+    assert aside.position.margin == pytest.approx(0.06, abs=1e-3)
+    assert aside.speed.peak == pytest.approx(0.04 * 2 * np.pi / GAIT.duration)
     assert verdict.ok
     far = feasible(_swaying(0.11), "lopes8")
     assert [(name, how) for name, how, _ in far.failures] == [("pelvis_left", "outside its range")]
@@ -189,12 +188,12 @@ def test_known_torques_count_and_unknown_ones_do_not():
     tau[:, KNEE] = 30 * np.sin(2 * np.pi * np.arange(50) / 50)
     verdict = feasible(GAIT, torques=Torques(GAIT.time, tau))
     knee = next(d for d in verdict.joints if d.joint == "left_knee_flexion")
-    assert knee.torque_use == pytest.approx(np.nanmax(np.abs(tau)) / knee.effort)
-    assert [d.joint for d in verdict.joints if d.torque_use is not None] == ["left_knee_flexion"]
+    assert knee.torque.use == pytest.approx(np.nanmax(np.abs(tau)) / knee.torque.available)
+    assert [d.joint for d in verdict.joints if d.torque is not None] == ["left_knee_flexion"]
     assert verdict.ok
     strong = feasible(GAIT, torques=Torques(GAIT.time, 10 * tau))
     assert [(name, how) for name, how, _ in strong.failures] == [("left_knee_flexion", "too much torque")]
-    assert np.array_equal(strong.failures[0][2], np.abs(10 * tau[:, KNEE]) > knee.effort)
+    assert np.array_equal(strong.failures[0][2], np.abs(10 * tau[:, KNEE]) > knee.torque.available)
     assert not any((strong.ok, strong.cadence_decides, strong.amplitude_decides))
 
 
@@ -203,7 +202,7 @@ def test_the_command_says_where_and_under_what_conditions(capsys, tmp_path):
     assert main(words) == 1
     said = capsys.readouterr().out
     assert "ankle is held" in said  # the device's own remark
-    assert "torques are not asked" in said
+    assert "torques are not checked" in said
     assert "NOT OK left_knee_flexion: accelerated too hard in" in said
     assert main([*words, "--json"]) == 1
     facts = json.loads(capsys.readouterr().out)
@@ -220,18 +219,18 @@ def test_a_belt_sets_the_cadence_and_the_amplitude():
     belt = verdict.fits[0]
     assert not verdict.ok
     assert [name for name, _, _ in verdict.failures] == ["treadmill"]
-    assert verdict.cadence == pytest.approx(belt.high / belt.asked)
-    for part in (GAIT.slowed(1 / verdict.cadence), scaled(GAIT, verdict.amplitude)):
+    assert verdict.cadence == pytest.approx(belt.available[1] / belt.required)
+    for part in (GAIT.slowed(1 / verdict.cadence), with_amplitude(GAIT, verdict.amplitude)):
         now = feasible(part, "lokomat")
         assert now.ok
-        assert now.fits[0].asked == pytest.approx(belt.high, rel=0.01)
+        assert now.fits[0].required == pytest.approx(belt.available[1], rel=0.01)
     assert feasible(GAIT.slowed(20.0), "lokomat").failures[0][0] == "treadmill"  # too slow for it
 
 
 def test_a_belt_whose_speed_nobody_knows_does_not_count():
     standing = Gait(np.arange(5) / 10, np.zeros((5, 12)))
     verdict = feasible(standing, "lokomat")
-    assert np.isnan(verdict.fits[0].asked)
+    assert np.isnan(verdict.fits[0].required)
     assert verdict.ok
     json.dumps(verdict.facts(), allow_nan=False)
 

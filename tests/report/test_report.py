@@ -11,8 +11,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from exo_pin import cli, crosscheck, feasible, ik, report
+from exo_pin import cli, crosscheck, ik, report
 from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin.demand import ACCELERATION_LIMIT, range_demands
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
 from exo_pin.gait.heading import turned
@@ -122,9 +123,10 @@ def test_the_report_has_every_section(document):
 def test_ranges_are_those_of_the_cross_check(document, robot, gait):
     rows = table(document, "Ranges and limit margins")
     assert tuple(rows) == JOINTS
-    for k, (joint, (low, high, frames)) in enumerate(crosscheck.limits(robot, gait).items()):
+    for k, (joint, demand) in enumerate(range_demands(robot, robot.from_gait(gait)).items()):
         *numbers, outside = rows[joint]
         lower, upper = robot.lower[k], robot.upper[k]
+        low, high, frames = demand.lowest, demand.highest, demand.samples_outside
         expected = np.degrees([low, high, high - low, lower, upper, min(low - lower, upper - high)])
         np.testing.assert_allclose([float(x) for x in numbers], expected, atol=PRINTED)
         assert outside == (str(frames) if frames else "-")
@@ -137,7 +139,7 @@ def test_rates_are_the_gaits_own_derivatives(document, robot, gait):
         peak = np.abs(gait.dq[:, k]).max()
         assert speed == pytest.approx(peak, abs=5e-3)
         assert degrees == pytest.approx(np.degrees(peak), abs=0.5)
-        assert (has, hardest) == (robot.velocity[k], feasible.ACCELERATION)
+        assert (has, hardest) == (robot.velocity[k], ACCELERATION_LIMIT)
         assert used == pytest.approx(100 * peak / robot.velocity[k], abs=0.5)
         assert change == pytest.approx(np.abs(gait.ddq[:, k]).max(), abs=PRINTED)
         assert share == pytest.approx(100 * change / hardest, abs=0.6)

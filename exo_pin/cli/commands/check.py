@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Check and print; 0 if all is well, else 1."""
+    """Check and print; 0 if everything agrees within the limits, else 1."""
     from exo_pin import crosscheck, devices
     from exo_pin.robot import load_robot
 
@@ -55,27 +55,33 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(verdict: Check, name: str) -> None:
+    from math import degrees
+
     from exo_pin.crosscheck import FK_TOLERANCE
 
-    facts = verdict.facts()
-    fk, ik = facts["fk_max_difference"], facts["ik"]
+    recovery, track = verdict.recovery, verdict.recovery.track
     titles = {"recursion": "the paper's recursion", "dh": "modified D-H table", "yourdfpy": "yourdfpy"}
-    rows = [[f"{titles[k]} against Pinocchio", f"{v:.1e}", _mark(v <= FK_TOLERANCE)] for k, v in fk.items()]
+    rows = [
+        [f"{titles[name]} against Pinocchio", f"{difference:.1e}", _mark(difference <= FK_TOLERANCE)]
+        for name, difference in verdict.fk.items()
+    ]
+    angle, agreement = degrees(recovery.largest_angle_error), degrees(verdict.agreement)
     rows += [
-        ["feet reached by IK, position", f"{ik['max_position_error_m']:.1e} m", _mark(verdict.ik_ok)],
-        ["feet reached by IK, rotation", f"{ik['max_rotation_error_rad']:.1e} rad", _mark(verdict.ik_ok)],
-        [
-            "angles recovered (knee bent > 5 deg)",
-            f"{ik['max_angle_error_deg']:.1e} deg",
-            _mark(verdict.angles_ok),
-        ],
-        ["closed form against iteration", f"{ik['method_agreement_deg']:.1e} deg", _mark(verdict.angles_ok)],
-        ["frames converged", f"{ik['converged']} of {ik['frames']}", _mark(verdict.ik_ok)],
+        ["feet reached by IK, position", f"{recovery.largest_position_error:.1e} m", _mark(verdict.ik_ok)],
+        ["feet reached by IK, rotation", f"{recovery.largest_rotation_error:.1e} rad", _mark(verdict.ik_ok)],
+        ["angles recovered (knee bent > 5 deg)", f"{angle:.1e} deg", _mark(verdict.angles_ok)],
+        ["closed form against iteration", f"{agreement:.1e} deg", _mark(verdict.angles_ok)],
+        ["frames converged", f"{int(track.converged.sum())} of {len(track.q)}", _mark(verdict.ik_ok)],
     ]
     show.table(f"Cross-checks: {name}", ["check", "largest difference", ""], rows)
     limit_rows = [
-        [joint, show.fixed(r["min"]), show.fixed(r["max"]), str(r["violated_frames"] or "-")]
-        for joint, r in facts["limits"].items()
+        [
+            joint,
+            show.fixed(degrees(demand.lowest)),
+            show.fixed(degrees(demand.highest)),
+            str(demand.samples_outside or "-"),
+        ]
+        for joint, demand in verdict.limits.items()
     ]
     show.table("Joint ranges", ["joint", "min deg", "max deg", "outside limits"], limit_rows)
     print("verdict: " + ("all is well" if verdict.ok else _why(verdict)))
@@ -86,11 +92,10 @@ def _mark(ok: bool) -> str:
 
 
 def _why(verdict: Check) -> str:
-    outside = [joint for joint, (_, _, frames) in verdict.limits.items() if frames]
     reasons = [
         (verdict.fk_ok, "forward kinematics disagree"),
         (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
         (verdict.angles_ok, "recovered angles differ from the given ones, or the two methods disagree"),
-        (verdict.limits_ok, f"outside the limits: {', '.join(outside)}"),
+        (verdict.limits_ok, f"outside the limits: {', '.join(verdict.joints_outside)}"),
     ]
     return "NO: " + "; ".join(text for ok, text in reasons if not ok)

@@ -1,9 +1,8 @@
-"""`exo-pin edit`: adjust a walk and write it; limits, velocities and accelerations are checked anew."""
+"""`exo-pin edit`: adjust a walk and write it; the joint limits are checked after each adjustment."""
 
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -89,7 +88,7 @@ def run(args: argparse.Namespace) -> int:
         gait = changed
     save_gait(gait, args.output)
     if args.json:
-        steps = [{"step": name, "ok": x.ok, **dataclasses.asdict(x)} for name, x in checks.items()]
+        steps = [{"step": name, **found.facts()} for name, found in checks.items()]
         facts = {"output": args.output, "samples": len(gait.time), "duration_s": gait.duration}
         show.as_json(facts | {"source": gait.source, "steps_in_rad": steps})
     else:
@@ -99,21 +98,24 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(checks: dict[str, Recheck]) -> None:
-    """What each adjustment asks of the joints, and which of them the last one asks too much."""
-    import numpy as np
+    """The largest demand after each adjustment, and the joints that exceed a limit after the last one."""
+    import math
 
-    from exo_pin.edit.recheck import JOLT
+    from exo_pin.demand import ACCELERATION_LIMIT
 
     rows = [
         [
             name,
-            show.fixed(np.degrees(x.closest[1])),
-            show.fixed(100 * x.fastest[1] / x.fastest[2], 0),
-            show.fixed(100 * x.hardest[1] / JOLT, 0),
+            show.fixed(math.degrees(found.closest.position.margin)),
+            show.fixed(100 * found.fastest.speed.use, 0),
+            show.fixed(100 * found.hardest.acceleration.use, 0),
         ]
-        for name, x in checks.items()
+        for name, found in checks.items()
     ]
-    title = f"after each adjustment: degrees inside the limits, % of the motors' speed, % of {JOLT:g} rad/s^2"
+    title = (
+        "after each adjustment: degrees inside the limits, % of the motors' speed, "
+        f"% of {ACCELERATION_LIMIT:g} rad/s^2"
+    )
     show.table(title, ["after", "deg inside", "speed", "acceleration"], rows)
     for line in checks[next(reversed(checks))].lines():
         print(line)
@@ -217,7 +219,7 @@ _STEPS: dict[str, Step] = {
     "retimed": _time,
     "ramped": _ramp,
 }
-"""In the order in which they are made."""
+"""The adjustments in the order in which they are made."""
 
 
 def _number(text: str, option: str) -> tuple[str, float]:

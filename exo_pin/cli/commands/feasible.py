@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from exo_pin.cli import options, show, torque_options
 
 if TYPE_CHECKING:
-    from exo_pin.feasible import Feasibility, JointDemand
+    from collections.abc import Sequence
+
+    from exo_pin.demand import JointDemand
+    from exo_pin.feasible import Failure, Feasibility
 
 _EXAMPLES = """examples:
   exo-pin feasible                               the normal walk on the 12-joint exoskeleton
@@ -17,9 +20,9 @@ _EXAMPLES = """examples:
   exo-pin feasible very_fast --gap 10 --json
   exo-pin feasible walk.mot --torques id.sto     its torques as well, where they are known
 
-Ranges, speeds and accelerations of joints and slides, self-collision and reach; torques if they are given.
-Joints that the device locks are dropped and told, and so is what the pelvis does and the device does not let
-it; exo-pin compare says what that costs. exit code 0: it can; 1: it cannot"""
+Ranges, speeds and accelerations of revolute and prismatic joints, self-collision and reach; torques if they
+are given. The motion of joints that the device locks, and of the pelvis where the device blocks it, is listed
+and does not count; exo-pin compare quantifies that loss. exit code 0: it can; 1: it cannot"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -41,11 +44,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Judge and print; 0 if it can be done, else 1."""
+    """Assess and print; 0 if the device can do the walk, else 1."""
+    from exo_pin.demand import ACCELERATION_LIMIT
     from exo_pin.errors import DescriptionError
-    from exo_pin.feasible import ACCELERATION, feasible
+    from exo_pin.feasible import feasible
 
-    acceleration = ACCELERATION if args.acceleration is None else args.acceleration
+    acceleration = ACCELERATION_LIMIT if args.acceleration is None else args.acceleration
     if not (math.isfinite(acceleration) and acceleration > 0 and math.isfinite(args.gap)):
         raise DescriptionError("--acceleration must be positive, --gap a number")
     body = options.body_from(args)
@@ -60,39 +64,56 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _print(verdict: Feasibility, name: str) -> None:
-    facts = verdict.facts()
-    _print_demands(f"{name} on {verdict.robot.name}", "deg", [d for d in verdict.joints if not d.slide])
-    _print_demands("Slides of the pelvis", "mm", [d for d in verdict.joints if d.slide])
-    pair = " and ".join(facts["clearance_between"])
-    spare = ", ".join(f"{side} {show.fixed(x)} mm" for side, x in facts["reach_to_spare_mm"].items())
-    print(f"nearest parts: {show.fixed(facts['clearance_mm'])} mm between {pair}")
-    for fit in facts["fits"]:
-        asked = "not known" if fit["asked"] is None else f"{fit['asked']:.2f} {fit['unit']}"
-        print(f"{fit['what']}: {asked}, {fit['low']:.2f} to {fit['high']:.2f} {fit['unit']} possible")
+    _print_demands(f"{name} on {verdict.robot.name}", "deg", [d for d in verdict.joints if not d.prismatic])
+    _print_demands("Slides of the pelvis", "mm", [d for d in verdict.joints if d.prismatic])
+    spare = ", ".join(f"{side} {show.fixed(1e3 * x)} mm" for side, x in verdict.reach.items())
+    pair = " and ".join(verdict.closest_parts)
+    print(f"nearest parts: {show.fixed(1e3 * verdict.clearance)} mm between {pair}")
+    for fit in verdict.fits:
+        required = "not known" if math.isnan(fit.required) else f"{fit.required:.2f} {fit.unit}"
+        low, high = fit.available
+        print(f"{fit.what}: {required}, {low:.2f} to {high:.2f} {fit.unit} possible")
     print(f"reach to spare between hip and ankle: {spare}")
-    told = [
-        f"{name} {show.fixed(x)} {unit}"
-        for unit in ("deg", "mm")
-        for name, x in facts[f"dropped_{unit}"].items()
-        if x >= _TOLD
-    ]
-    if told:
-        print(f"asked, but locked or held here, up to: {', '.join(told)}")
+    dropped = _dropped(verdict)
+    if dropped:
+        print(f"required, but locked or held here, up to: {', '.join(dropped)}")
     print(f"possible: {_cadence(verdict)}; {_amplitude(verdict)}")
-    for sentence in facts["conditions"]:
+    for sentence in verdict.conditions:
         print(f"note: {sentence}")
-    for failure in facts["failures"]:
-        print(f"NOT OK {_failure(failure)}")
+    for failure in verdict.failures:
+        print(f"NOT OK {_failure(verdict, failure)}")
     print("verdict: " + ("the device can do this walk" if verdict.ok else "NO"))
 
 
-_TOLD = 0.05
-"""What is asked of locked joints is told from here on [deg, mm]: the last digit that is printed."""
+_LEAST_DROPPED = 0.05
+"""Smaller motion of locked joints is not printed [deg, mm]: it would round to zero."""
 
 
-def _print_demands(title: str, unit: str, demands: list[JointDemand]) -> None:
-    """A table of what joints are asked; accelerations and torques only where they are known."""
-    columns = ["joint", f"asked {unit}", f"range {unit}", f"margin {unit}", "speed %", "acc. %", "torque %"]
+def _dropped(verdict: Feasibility) -> list[str]:
+    """Motion of locked joints, and of the pelvis where the device blocks it: angles first."""
+    from exo_pin.devices import SLIDES
+
+    angles = {name: math.degrees(x) for name, x in verdict.dropped.items() if name not in SLIDES}
+    places = {name: 1e3 * x for name, x in verdict.dropped.items() if name in SLIDES}
+    return [
+        f"{name} {show.fixed(x)} {unit}"
+        for unit, motion in (("deg", angles), ("mm", places))
+        for name, x in motion.items()
+        if x >= _LEAST_DROPPED
+    ]
+
+
+def _print_demands(title: str, unit: str, demands: Sequence[JointDemand]) -> None:
+    """A table of the demand on joints, without columns of which nothing is known."""
+    columns = [
+        "joint",
+        f"required {unit}",
+        f"range {unit}",
+        f"margin {unit}",
+        "speed %",
+        "acc. %",
+        "torque %",
+    ]
     rows = [_row(demand) for demand in demands]
     kept = [k for k in range(len(columns)) if any(row[k] != "-" for row in rows)]
     if rows:
@@ -101,21 +122,22 @@ def _print_demands(title: str, unit: str, demands: list[JointDemand]) -> None:
         show.table(title, [*(columns[k] for k in kept), ""], lines)
 
 
-def _failure(failure: dict[str, Any]) -> str:
-    if failure["what"] in ("treadmill", "person"):
-        return f"{failure['what']}: {failure['how']}"
-    frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure["frames"])
-    where = f"; {', '.join(failure['phases'])}" if failure["phases"] else ""
-    return f"{failure['what']}: {failure['how']} in {failure['samples']} frames ({frames}{where})"
+def _failure(verdict: Feasibility, failure: Failure) -> str:
+    if failure.what in ("treadmill", "person"):
+        return f"{failure.what}: {failure.how}"
+    frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure.frames)
+    phases = verdict.phases(failure.samples, failure.what)
+    where = f"; {', '.join(phases)}" if phases else ""
+    return f"{failure.what}: {failure.how} in {int(failure.samples.sum())} frames ({frames}{where})"
 
 
 def _cadence(verdict: Feasibility) -> str:
-    from exo_pin.feasible import FASTEST
+    from exo_pin.feasible import LARGEST_CADENCE
 
     if not verdict.cadence_decides:
         return "at no cadence (what fails does not depend on it)"
-    if verdict.cadence >= FASTEST:
-        return f"at {FASTEST:g} times the cadence, and more was not tried"
+    if verdict.cadence >= LARGEST_CADENCE:
+        return f"at {LARGEST_CADENCE:g} times the cadence, and more was not tried"
     text = f"up to {math.floor(100 * verdict.cadence) / 100:.2f} times the cadence"
     if verdict.gait.periodic:
         steps = 120 / verdict.gait.duration
@@ -124,27 +146,27 @@ def _cadence(verdict: Feasibility) -> str:
 
 
 def _amplitude(verdict: Feasibility) -> str:
-    from exo_pin.feasible import MOST
+    from exo_pin.feasible import LARGEST_AMPLITUDE
 
     if not verdict.amplitude_decides:
         return "at no amplitude that is known"
     if not verdict.amplitude:
         return "at no amplitude of the joints"
-    if verdict.amplitude >= MOST:
-        return f"at {MOST:g} times the movement of the joints, and more was not tried"
+    if verdict.amplitude >= LARGEST_AMPLITUDE:
+        return f"at {LARGEST_AMPLITUDE:g} times the movement of the joints, and more was not tried"
     return f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
 
 
 def _row(demand: JointDemand) -> list[str]:
-    scale = 1e3 if demand.slide else math.degrees(1.0)
-    low, high = scale * float(demand.q.min()), scale * float(demand.q.max())
-    torque, hardest = demand.torque_use, demand.acceleration
+    scale = 1e3 if demand.prismatic else math.degrees(1.0)
+    position, acceleration, torque = demand.position, demand.acceleration, demand.torque
+    lower, upper = position.available
     return [
         demand.joint,
-        f"{show.fixed(low)} .. {show.fixed(high)}",
-        f"{show.fixed(scale * demand.lower, 0)}..{show.fixed(scale * demand.upper, 0)}",
-        show.fixed(scale * demand.margin),
-        show.fixed(100 * demand.speed_use, 0),
-        "-" if math.isinf(hardest) else show.fixed(100 * demand.acceleration_use, 0),
-        "-" if torque is None else show.fixed(100 * torque, 0),
+        f"{show.fixed(scale * position.lowest)} .. {show.fixed(scale * position.highest)}",
+        f"{show.fixed(scale * lower, 0)}..{show.fixed(scale * upper, 0)}",
+        show.fixed(scale * position.margin),
+        show.fixed(100 * demand.speed.use, 0),
+        "-" if math.isinf(acceleration.available) else show.fixed(100 * acceleration.use, 0),
+        "-" if torque is None else show.fixed(100 * torque.use, 0),
     ]

@@ -68,14 +68,14 @@ def _print_walk(facts: dict[str, Any]) -> None:
 def _facts(args: argparse.Namespace) -> dict[str, Any]:
     import numpy as np
 
-    from exo_pin import crosscheck
+    from exo_pin.demand import range_demands
     from exo_pin.gait import doubts
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
     robot = load_robot(body)
     gait, note = options.with_events(robot, options.gait_from(args, body))
-    ranges = crosscheck.limits(robot, gait)
+    ranges = range_demands(robot, robot.from_gait(gait))
     peaks = np.degrees(np.abs(gait.dq).max(axis=0))
     return {
         "source": gait.source,
@@ -85,12 +85,12 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
         "pelvis_moves": gait.base is not None,
         "joints": {
             joint: {
-                "min_deg": float(np.degrees(low)),
-                "max_deg": float(np.degrees(high)),
+                "min_deg": float(np.degrees(demand.lowest)),
+                "max_deg": float(np.degrees(demand.highest)),
                 "peak_speed_deg_s": float(peak),
-                "outside": outside,
+                "outside": demand.samples_outside,
             }
-            for peak, (joint, (low, high, outside)) in zip(peaks, ranges.items(), strict=True)
+            for peak, (joint, demand) in zip(peaks, ranges.items(), strict=True)
         },
         "events": [
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events

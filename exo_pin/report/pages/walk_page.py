@@ -101,13 +101,13 @@ def _ahead(gait: Gait) -> tuple[Gait, str]:
 
 
 def _summary(gait: Gait, about: About, verdict: crosscheck.Check) -> Section:
-    ik = verdict.facts()["ik"]
+    track = verdict.recovery.track
     apart = max(verdict.fk.values())
-    outside = [name for name, (_, _, frames) in verdict.limits.items() if frames]
+    outside = verdict.joints_outside
     tiles = (
         ("verdict of all checks", "all is well" if verdict.ok else "no: see below", verdict.ok),
         ("joints outside their limits", str(len(outside)), not outside),
-        ("frames whose feet were reached", f"{ik['converged']} of {ik['frames']}", verdict.ik_ok),
+        ("frames whose feet were reached", f"{int(track.converged.sum())} of {len(track.q)}", verdict.ik_ok),
         ("largest disagreement of four models [m, rotation entries]", f"{apart:.0e}", verdict.fk_ok),
         ("length of the walk", f"{gait.duration:.3f} s", None),
         ("samples", str(len(gait)), None),

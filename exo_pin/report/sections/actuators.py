@@ -1,11 +1,14 @@
-"""Velocities, accelerations and (when given) torques against what the actuators have."""
+"""Velocities, accelerations and (where given) torques against the limits of the actuators."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.feasible import ACCELERATION
+from exo_pin.demand import ACCELERATION_LIMIT, PeakDemand, peak_demands
 from exo_pin.gait import Gait, Torques
 from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
 from exo_pin.report.draw import panels
@@ -14,17 +17,21 @@ from exo_pin.robot import Robot
 
 
 def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
-    """Charts and peaks of velocity and acceleration."""
-    rows = []
-    for k, name in enumerate(robot.joints):
-        if name not in JOINTS:  # a slide or a toe, which the walk knows nothing of
-            continue
-        speed, change = (float(np.abs(x[:, k]).max()) for x in (found.dq, found.ddq))
-        has = float(robot.velocity[k])
-        numbers = (f"{speed:.2f}", f"{np.degrees(speed):.0f}", f"{has:.2f}", f"{100 * speed / has:.0f}")
-        rows.append(
-            [name, *numbers, f"{change:.1f}", f"{ACCELERATION:g}", f"{100 * change / ACCELERATION:.0f}"]
-        )
+    """Charts and peaks of velocity and acceleration.
+
+    Args:
+        robot: The device on a body.
+        gait: The walk.
+        found: Velocities and accelerations of its joints.
+    """
+    names = robot.joints
+    speeds = peak_demands(names, found.dq, robot.velocity)
+    accelerations = peak_demands(names, found.ddq, ACCELERATION_LIMIT)
+    rows = [
+        [name, *_speed(speeds[name]), *_acceleration(accelerations[name])]
+        for name in names
+        if name in JOINTS  # the gait has neither prismatic joints nor toes
+    ]
     columns = (
         "joint",
         "peak speed rad/s",
@@ -36,19 +43,19 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
         "used %",
     )
     note = (
-        f"{found.how} Speeds are limited by the actuators; {ACCELERATION:g} rad/s² for every joint is a "
-        "design choice of exo_pin, since no source gives an acceleration for these devices."
+        f"{found.how} Speeds are limited by the actuators; {ACCELERATION_LIMIT:g} rad/s² for every joint is "
+        "a design choice of exo_pin, since no source gives an acceleration for these devices."
     )
-    names = robot.joints
-    speeds = dict(zip(names, robot.velocity.tolist(), strict=True))
-    hardest = dict.fromkeys(names, ACCELERATION)
+    speed_limits, acceleration_limits = _limits(speeds), _limits(accelerations)
     blocks: tuple[Block, ...] = (
         Figure(
-            panels.by_movement(gait, found.dq, names, "velocity", "rad/s", limits=speeds, limit="actuator")
+            panels.by_movement(
+                gait, found.dq, names, "velocity", "rad/s", limits=speed_limits, limit="actuator"
+            )
         ),
         Figure(
             panels.by_movement(
-                gait, found.ddq, names, "acceleration", "rad/s²", limits=hardest, limit="limit"
+                gait, found.ddq, names, "acceleration", "rad/s²", limits=acceleration_limits, limit="limit"
             )
         ),
         Table(columns, rows, "Peak rates against the actuators"),
@@ -58,7 +65,12 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
 
 
 def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
-    """Charts and peaks of the given torques; nothing is computed from the walk.
+    """Charts and peaks of given torques; none are computed from the walk.
+
+    Args:
+        robot: The device on a body.
+        gait: The walk.
+        given: Its joint torques.
 
     Raises:
         GaitError: The torques belong to another time.
@@ -66,10 +78,11 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
     names = given.joints
     tau = given.at(gait.time)[:, [JOINTS.index(name) for name in names]]
     effort = dict(zip(robot.joints, robot.effort.tolist(), strict=True))
-    mass = robot.body.mass if robot.body is not None else np.nan
+    demands = peak_demands(names, tau, [effort.get(name, math.inf) for name in names])
+    mass = robot.body.mass if robot.body is not None else math.nan
     rows = [
-        _peaks(name, column, effort.get(name, np.nan), mass)
-        for name, column in zip(names, tau.T, strict=True)
+        [name, *_torque(demand, mass), *(_effort(demand) if name in effort else ("-", "-", "-"))]
+        for name, demand in demands.items()
     ]
     columns = (
         "joint",
@@ -93,13 +106,27 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
     return Section("Torques", (Figure(charts), table, Words(note, "note")))
 
 
-def _peaks(name: str, tau: np.ndarray, has: float, mass: float) -> list[str]:
-    seen = tau[np.isfinite(tau)]
-    most = float(np.abs(seen).max())
-    beyond = int((np.abs(seen) > has).sum())
-    limit = (
-        ("-", "-", "-")
-        if np.isnan(has)
-        else (f"{has:.0f}", f"{100 * most / has:.0f}", str(beyond) if beyond else "-")
-    )
-    return [name, f"{seen.min():.1f}", f"{seen.max():.1f}", f"{most / mass:.2f}", *limit]
+def _limits(demands: Mapping[str, PeakDemand]) -> dict[str, float]:
+    return {joint: demand.available for joint, demand in demands.items()}
+
+
+def _speed(demand: PeakDemand) -> tuple[str, ...]:
+    """Peak [rad/s] and [deg/s], limit [rad/s], and share of it [%]."""
+    peak, limit = demand.peak, demand.available
+    return f"{peak:.2f}", f"{np.degrees(peak):.0f}", f"{limit:.2f}", f"{100 * demand.use:.0f}"
+
+
+def _acceleration(demand: PeakDemand) -> tuple[str, ...]:
+    """Peak and limit [rad/s^2], and share of it [%]."""
+    return f"{demand.peak:.1f}", f"{demand.available:g}", f"{100 * demand.use:.0f}"
+
+
+def _torque(demand: PeakDemand, mass: float) -> tuple[str, ...]:
+    """Lowest and highest torque [N m], and the peak over the person's mass [N m/kg]."""
+    known = demand.required[np.isfinite(demand.required)]
+    return f"{known.min():.1f}", f"{known.max():.1f}", f"{demand.peak / mass:.2f}"
+
+
+def _effort(demand: PeakDemand) -> tuple[str, ...]:
+    """Effort limit [N m], share of it [%], and number of samples beyond it."""
+    return f"{demand.available:.0f}", f"{100 * demand.use:.0f}", str(int(demand.exceeded.sum()) or "-")

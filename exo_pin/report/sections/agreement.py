@@ -80,8 +80,9 @@ def agreement(verdict: Check) -> Section:
         ]
         for name, value in verdict.fk.items()
     ]
-    outside = {name: frames for name, (_, _, frames) in verdict.limits.items() if frames}
-    named = ", ".join(f"{name} ({frames} frames)" for name, frames in outside.items())
+    named = ", ".join(
+        f"{name} ({verdict.limits[name].samples_outside} frames)" for name in verdict.joints_outside
+    )
     words = f"Outside the limits: {named}." if named else "No joint leaves its limits."
     columns = ("forward kinematics against Pinocchio", "largest difference", "accepted", "")
     note = (

@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES
 from exo_pin.compare import PHASES, Comparison, Loss
+from exo_pin.demand import RangeDemand
 from exo_pin.devices import SLIDES, movement_of
 from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
 from exo_pin.report.draw import device_drawings as drawn
@@ -118,9 +119,9 @@ def _slid(loss: Loss) -> list[str]:
     return [_span([loss.ranges[slide]], 1e3) if slide in loss.ranges else "" for slide in SLIDES]
 
 
-def _span(found: Sequence[tuple[float, float, int]], scale: float) -> str:
-    low, high = min(f[0] for f in found), max(f[1] for f in found)
-    mark = "*" if any(f[2] for f in found) else ""
+def _span(found: Sequence[RangeDemand], scale: float) -> str:
+    low, high = min(demand.lowest for demand in found), max(demand.highest for demand in found)
+    mark = "*" if any(demand.samples_at_limit for demand in found) else ""
     return f"{round(scale * low) + 0} .. {round(scale * high) + 0}{mark}"
 
 

@@ -1,4 +1,4 @@
-"""What the walk uses of each joint's range."""
+"""Range of each joint that the walk uses, against its limits."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from exo_pin import crosscheck
 from exo_pin.anatomy import JOINTS
+from exo_pin.demand import range_demands
 from exo_pin.gait import Gait
 from exo_pin.report.document.blocks import Block, Drawing, Figure, Section, Table
 from exo_pin.report.draw import svg
@@ -18,14 +18,14 @@ from exo_pin.robot import Robot
 def ranges(robot: Robot, gait: Gait) -> Section:
     """Bars and a table: angles, limits, margins."""
     rows, bars = [], []
-    for k, (name, (low, high, frames)) in enumerate(crosscheck.limits(robot, gait).items()):
-        if name not in JOINTS:  # a slide or a toe, which the walk knows nothing of
+    for name, demand in range_demands(robot, robot.from_gait(gait)).items():
+        if name not in JOINTS:  # a prismatic joint or a toe, which the gait does not have
             continue
-        a, b, lower, upper = np.degrees([low, high, robot.lower[k], robot.upper[k]])
+        a, b, lower, upper = np.degrees([demand.lowest, demand.highest, *demand.available]).tolist()
         bars.append((name, a, b, lower, upper))
-        margin = min(a - lower, upper - b)
-        numbers = [f"{round(x, 1) + 0.0:.1f}" for x in (a, b, b - a, lower, upper, margin)]
-        rows.append([name, *numbers, str(frames) if frames else "-"])
+        values = (a, b, b - a, lower, upper, np.degrees(demand.margin))
+        numbers = [f"{round(float(x), 1) + 0.0:.1f}" for x in values]
+        rows.append([name, *numbers, str(demand.samples_outside or "-")])
     columns = (
         "joint",
         "min deg",
@@ -44,7 +44,7 @@ def ranges(robot: Robot, gait: Gait) -> Section:
 
 
 def range_bars(rows: Sequence[tuple[str, float, float, float, float]]) -> Drawing:
-    """By joint: what the walk uses of the joint's range.
+    """Bars by joint: the used part of its range.
 
     Args:
         rows: Joint, smallest and largest angle, lower and upper limit [deg].
