@@ -107,12 +107,13 @@ def _of_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
             raise DescriptionError(f"--{name} is for the exoskeleton; leave it away with --robot")
     gait, note = options.with_events(load_robot(body), gait)
     walk = retarget.retarget(gait, args.robot, body)
-    facts = walk.facts()
-    feet, title = facts["foot_by_foot"], walk.target.title or walk.target.name
+    title = walk.target.title or walk.target.name
+    position = 1e3 * walk.errors.largest_position
+    rotation = degrees(walk.errors.largest_rotation)
     print(
         f"{title}: the feet's paths {sum(walk.scale) / 2:.2f} times the person's, missed by "
-        f"{feet['position_error_mm_max']:.2f} mm and {feet['rotation_error_deg_max']:.1f} deg at most "
-        f"({facts['samples_missed']} of {facts['samples']} samples missed)"
+        f"{position:.2f} mm and {rotation:.1f} deg at most "
+        f"({walk.samples_missed} of {len(gait)} samples missed)"
     )
     return viewer.retargeted(
         walk,
@@ -169,15 +170,17 @@ def _print(recovery: Recovery, name: str) -> None:
 
 def _beyond(robot: Robot, gait: Gait) -> list[str]:
     """What the gait asks beyond the joint limits, a sentence each."""
-    from exo_pin import crosscheck
+    from exo_pin.demand import range_demands
 
     lines = []
-    for joint, (low, high, frames) in crosscheck.limits(robot, gait).items():
-        if frames:
-            k = robot.joints.index(joint)
-            has = _degrees(robot.lower[k], robot.upper[k])
-            asks = _degrees(low, high)
-            lines.append(f"{joint}: {frames} frames outside its limits: the gait asks {asks}, it has {has}")
+    for joint, demand in range_demands(robot, robot.from_gait(gait)).items():
+        if demand.samples_outside:
+            required = _degrees(demand.lowest, demand.highest)
+            available = _degrees(*demand.available)
+            lines.append(
+                f"{joint}: {demand.samples_outside} frames outside its limits: "
+                f"required {required}, available {available}"
+            )
     return lines
 
 

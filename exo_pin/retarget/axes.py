@@ -1,4 +1,4 @@
-"""Rotations as turns about given axes: a person's hip and ankle on a robot's axes, whatever their order."""
+"""Rotations as angles about given axes: a person's hip and ankle on a robot's joints in any order."""
 
 from __future__ import annotations
 
@@ -9,42 +9,42 @@ from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.gait.rigid import about
 
-FLAT = 0.1
-"""Three axes whose triple product is smaller than this lie nearly in a plane: they do not make a hip."""
+_LEAST_VOLUME = 0.1
+"""Three axes with a smaller triple product are nearly coplanar: they do not make a hip."""
 
-SIGNED = ("x", "-x", "y", "-y", "z", "-z")
+SIGNED_AXES = ("x", "-x", "y", "-y", "z", "-z")
 
 
-def direction(name: str) -> Array:
-    """The unit vector `(3,)` of one of `SIGNED`."""
+def unit_vector(name: str) -> Array:
+    """The unit vector `(3,)` of one of `SIGNED_AXES`."""
     v = np.zeros(3)
     v["xyz".index(name[-1])] = -1.0 if name.startswith("-") else 1.0
     return v
 
 
-def named(v: npt.ArrayLike) -> str:
-    """The one of `SIGNED` that a direction `(3,)` is nearest to."""
+def nearest_axis(v: npt.ArrayLike) -> str:
+    """The one of `SIGNED_AXES` that a vector `(3,)` is nearest to."""
     v = np.asarray(v, dtype=float)
     k = int(np.argmax(np.abs(v)))
     return ("-" if v[k] < 0 else "") + "xyz"[k]
 
 
-def turns(axes: npt.ArrayLike, R: npt.ArrayLike) -> Array:
-    """Angles about axes, one after the other, that make a rotation: R = exp(a1 q1) exp(a2 q2) exp(a3 q3).
+def angles_about(axes: npt.ArrayLike, R: npt.ArrayLike) -> Array:
+    """Angles about successive axes that compose a rotation: R = exp(a1 q1) exp(a2 q2) exp(a3 q3).
 
-    Axes that are missing to three are added behind, each square to the others, and their angles left away:
-    what remains of the rotation is what such joints can do of it. (Paden and Kahan's second subproblem, see
-    Murray, Li, Sastry 1994, section 3.3; of its two answers the one near zero at R = 1.)
+    Fewer than three axes are completed by perpendicular ones, whose angles are dropped: such joints make a
+    part of the rotation only. (Paden and Kahan's second subproblem, see Murray, Li, Sastry 1994, section 3.3;
+    of its two solutions the one that is zero at R = 1.)
 
     Args:
         axes: One to three unit vectors (k, 3), each seen at zero angles.
         R: Rotations (n, 3, 3).
 
     Returns:
-        Angles (n, k) [rad]. A rotation out of the axes' reach (only if they are oblique) gets a near one.
+        Angles (n, k) [rad]; of a nearby rotation where oblique axes cannot compose the given one.
 
     Raises:
-        DescriptionError: Three axes lie in a plane.
+        DescriptionError: The three axes are coplanar.
     """
     own = np.asarray(axes, dtype=float)
     a, b, c = _completed(own)
@@ -66,7 +66,7 @@ def turns(axes: npt.ArrayLike, R: npt.ArrayLike) -> Array:
 
 
 def _completed(axes: Array) -> tuple[Array, Array, Array]:
-    """Three axes: those that are missing added behind, square to the others."""
+    """Three axes: missing ones are appended, perpendicular to the others."""
     rows = list(axes)
     if len(rows) == 1:
         unit = np.eye(3)[int(np.argmin(np.abs(rows[0])))]
@@ -74,14 +74,14 @@ def _completed(axes: Array) -> tuple[Array, Array, Array]:
         rows.append(across / np.linalg.norm(across))
     if len(rows) == 2:
         across = np.cross(rows[0], rows[1])
-        rows.append(across / max(float(np.linalg.norm(across)), FLAT))
-    if abs(np.linalg.det(rows)) < FLAT:
+        rows.append(across / max(float(np.linalg.norm(across)), _LEAST_VOLUME))
+    if abs(np.linalg.det(rows)) < _LEAST_VOLUME:
         raise DescriptionError("the axes of a hip or ankle lie nearly in a plane")
     return rows[0], rows[1], rows[2]
 
 
 def _angle(axis: Array, start: Array, end: Array) -> Array:
-    """Angles (n,) about an axis that bring vectors (n, 3) to others, as seen along the axis."""
+    """Angles (n,) about an axis from vectors (n, 3) to others, projected along the axis."""
     start = start - (start @ axis)[:, None] * axis
     end = end - (end @ axis)[:, None] * axis
     return np.asarray(np.arctan2(np.cross(start, end) @ axis, np.einsum("ni,ni->n", start, end)))

@@ -1,28 +1,80 @@
-"""`Retargeted`: a walk on another robot, with what was missed and how much of its limits it takes."""
+"""Retargeted walk: joint values of another robot, errors of its feet, and use of its joint limits."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from exo_pin.anatomy import Body
 from exo_pin.arrays import Array, Mask
+from exo_pin.demand import RangeDemand, range_demands
+from exo_pin.files import json_number
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid import angle_of
 from exo_pin.kinematics import poses
-from exo_pin.retarget.machine import Machine
+from exo_pin.retarget.biped import Biped
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
 
 REACHED = 1e-5
-"""A foot further away than this [m, rad] is missed."""
+"""A foot further from its goal than this is missed [m, rad]."""
 
-ROUNDING = 1e-9
-"""A joint this little beyond its limit is on it [rad]."""
+
+class LimitUse(NamedTuple):
+    """One leg joint against its range [rad].
+
+    Attributes:
+        used: Values foot by foot, within the limits.
+        copied: Values joint by joint, not clipped to the limits.
+    """
+
+    used: RangeDemand
+    copied: RangeDemand
+
+
+class FootErrors(NamedTuple):
+    """Distance of the feet from their goals.
+
+    Attributes:
+        position: Of the ankles (n, 2) [m].
+        rotation: Of the feet (n, 2) [rad].
+    """
+
+    position: Array
+    rotation: Array
+
+    @property
+    def position_rms(self) -> float:
+        """Root mean square distance of the ankles [m]."""
+        return float(np.sqrt(np.mean(self.position**2)))
+
+    @property
+    def largest_position(self) -> float:
+        """Largest distance of an ankle [m]."""
+        return float(self.position.max())
+
+    @property
+    def rotation_rms(self) -> float:
+        """Root mean square angle of the feet [rad]."""
+        return float(np.sqrt(np.mean(self.rotation**2)))
+
+    @property
+    def largest_rotation(self) -> float:
+        """Largest angle of a foot [rad]."""
+        return float(self.rotation.max())
+
+    def facts(self) -> dict[str, float]:
+        """Plain values for JSON."""
+        return {
+            "position_error_mm_rms": 1e3 * self.position_rms,
+            "position_error_mm_max": 1e3 * self.largest_position,
+            "rotation_error_deg_rms": math.degrees(self.rotation_rms),
+            "rotation_error_deg_max": math.degrees(self.largest_rotation),
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,19 +82,19 @@ class Retargeted:
     """A walk on another robot.
 
     Attributes:
-        machine: The robot with its legs.
+        biped: The robot with its legs.
         gait: The person's walk.
         q: Joint values (n, nq), foot by foot, within the robot's limits [rad].
-        copied: Joint values (n, nq), joint by joint, not cut to the limits [rad].
-        base: T_world_root (n, 4, 4): how the robot's root goes, its height still to be fitted to the ground.
-        lean: How far the person's pelvis leans forward on average, which the robot's hips take over [rad].
-        scale: Robot's paths over the person's, left and right.
-        ankles: Where the ankles shall be (n, 2, 3), in the walker's axes at the robot's root [m].
-        attitudes: How the feet shall be turned (n, 2, 3, 3), in the same axes.
+        copied: Joint values (n, nq), joint by joint, not clipped to the limits [rad].
+        base: T_world_root (n, 4, 4) of the robot's root, before its height is fitted to the ground.
+        lean: Mean forward lean of the person's pelvis, which the robot's hips take over [rad].
+        scale: Ratio of the robot's paths to the person's, left and right.
+        ankles: Goals of the ankles (n, 2, 3), in the walker's axes at the robot's root [m].
+        attitudes: Goals of the feet's rotation (n, 2, 3, 3), in the same axes.
         body: Whose walk it is.
     """
 
-    machine: Machine
+    biped: Biped
     gait: Gait
     q: Array
     copied: Array
@@ -56,12 +108,12 @@ class Retargeted:
     @property
     def target(self) -> Target:
         """The robot's record."""
-        return self.machine.target
+        return self.biped.target
 
     @property
     def robot(self) -> Robot:
         """The robot, its root at the origin."""
-        return self.machine.robot
+        return self.biped.robot
 
     @property
     def time(self) -> Array:
@@ -71,45 +123,35 @@ class Retargeted:
     @property
     def joints(self) -> tuple[str, ...]:
         """The joints of both legs."""
-        return self.machine.joints
+        return self.biped.joints
 
     @cached_property
-    def errors(self) -> tuple[Array, Array]:
-        """Foot by foot: how far ankles (n, 2) [m] and feet (n, 2) [rad] are from their goals."""
+    def errors(self) -> FootErrors:
+        """Errors of the feet foot by foot."""
         return self._errors(self.q)
 
     @cached_property
-    def copied_errors(self) -> tuple[Array, Array]:
-        """The same joint by joint, as if there were no limits."""
+    def copied_errors(self) -> FootErrors:
+        """Errors of the feet joint by joint, without limits."""
         return self._errors(self.copied)
 
     @property
     def missed(self) -> Mask:
-        """Which feet (n, 2) were not reached; legs of fewer than six joints answer for the place alone."""
-        place, turn = self.errors
-        whole = [leg.whole for leg in self.machine.legs]
-        return np.asarray((place > REACHED) | ((turn > REACHED) & whole))
+        """Feet (n, 2) that were not reached; of legs with fewer than six joints only the place counts."""
+        any_pose = [leg.reaches_any_pose for leg in self.biped.legs]
+        position, rotation = self.errors
+        return np.asarray((position > REACHED) | ((rotation > REACHED) & any_pose))
 
-    def limit_use(self) -> dict[str, dict[str, Any]]:
-        """By leg joint: its limits, what foot by foot uses of them and what joint by joint asks [rad].
+    @property
+    def samples_missed(self) -> int:
+        """Number of samples in which a foot was not reached."""
+        return int(self.missed.any(axis=1).sum())
 
-        `share` is how far foot by foot goes on the way from mid-range to a limit (1: it is on the limit),
-        `samples_outside` how often the limits forbid what joint by joint asks.
-        """
-        use = {}
-        for name in self.joints:
-            j, k = self.robot.column(name), self.robot.joints.index(name)
-            low, high = float(self.robot.lower[k]), float(self.robot.upper[k])
-            used, asked = self.q[:, j], self.copied[:, j]
-            outside = (asked < low - ROUNDING) | (asked > high + ROUNDING)
-            use[name] = {
-                "limits": (low, high),
-                "used": (float(used.min()), float(used.max())),
-                "share": float(np.abs(2 * used - low - high).max() / (high - low)),
-                "asked": (float(asked.min()), float(asked.max())),
-                "samples_outside": int(outside.sum()),
-            }
-        return use
+    @property
+    def limit_use(self) -> dict[str, LimitUse]:
+        """By leg joint, its values foot by foot and joint by joint against its limits."""
+        used, copied = (range_demands(self.robot, q) for q in (self.q, self.copied))
+        return {name: LimitUse(used[name], copied[name]) for name in self.joints}
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -117,44 +159,35 @@ class Retargeted:
             "robot": self.target.name,
             "title": self.target.title,
             "samples": len(self.gait),
-            "joints_per_leg": len(self.machine.legs[0].joints),
-            "hip_order": self.machine.legs[0].hip_order,
+            "joints_per_leg": self.biped.joints_per_leg,
+            "hip_order": self.biped.hip_order,
             "lean_deg": math.degrees(self.lean),
             "scale": list(self.scale),
-            "foot_by_foot": _residuals(*self.errors),
-            "samples_missed": int(self.missed.any(axis=1).sum()),
-            "joint_by_joint": _residuals(*self.copied_errors),
+            "foot_by_foot": self.errors.facts(),
+            "samples_missed": self.samples_missed,
+            "joint_by_joint": self.copied_errors.facts(),
             "joints": {
                 name: {
-                    "limits_deg": _degrees(use["limits"]),
-                    "used_deg": _degrees(use["used"]),
-                    "limit_use": use["share"],
-                    "asked_deg": _degrees(use["asked"]),
-                    "samples_outside": use["samples_outside"],
+                    "limits_deg": _degrees(used.available),
+                    "used_deg": _degrees((used.lowest, used.highest)),
+                    "limit_use": json_number(used.use),
+                    "asked_deg": _degrees((copied.lowest, copied.highest)),
+                    "samples_outside": copied.samples_outside,
                 }
-                for name, use in self.limit_use().items()
+                for name, (used, copied) in self.limit_use.items()
             },
             "remarks": self.target.remarks,
         }
 
-    def _errors(self, q: Array) -> tuple[Array, Array]:
-        legs, turn = self.machine.legs, self.machine.turn
+    def _errors(self, q: Array) -> FootErrors:
+        legs, rotation = self.biped.legs, self.biped.rotation
         T = poses(self.robot, q, [leg.foot for leg in legs])
         arms = np.array([leg.ankle_in_foot for leg in legs])
-        ankles = (T[..., :3, 3] + np.einsum("nkij,kj->nki", T[..., :3, :3], arms)) @ turn
+        ankles = (T[..., :3, 3] + np.einsum("nkij,kj->nki", T[..., :3, :3], arms)) @ rotation
         rest = np.array([leg.T[:3, :3] for leg in legs])
-        R = turn.T @ T[..., :3, :3] @ np.swapaxes(rest, -1, -2)
+        R = rotation.T @ T[..., :3, :3] @ np.swapaxes(rest, -1, -2)
         off = np.swapaxes(self.attitudes, -1, -2) @ R
-        return np.linalg.norm(ankles - self.ankles, axis=-1), angle_of(off)
-
-
-def _residuals(place: Array, turn: Array) -> dict[str, float]:
-    return {
-        "position_error_mm_rms": 1e3 * float(np.sqrt(np.mean(place**2))),
-        "position_error_mm_max": 1e3 * float(place.max()),
-        "rotation_error_deg_rms": float(np.degrees(np.sqrt(np.mean(turn**2)))),
-        "rotation_error_deg_max": float(np.degrees(turn.max())),
-    }
+        return FootErrors(np.linalg.norm(ankles - self.ankles, axis=-1), angle_of(off))
 
 
 def _degrees(pair: tuple[float, float]) -> list[float]:

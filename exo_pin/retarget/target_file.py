@@ -1,4 +1,4 @@
-"""A robot of one's own from a TOML file."""
+"""Target records from TOML files: a robot of one's own."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from pathlib import Path
 from types import MappingProxyType
 
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.retarget.axes import SIGNED
+from exo_pin.retarget.axes import SIGNED_AXES
 from exo_pin.retarget.target_robots import Target
 from exo_pin.safe import toml_file
 
-_TEXT, _AXIS = "a text", f"one of {', '.join(SIGNED)}"
+_TEXT, _AXIS = "a text", f"one of {', '.join(SIGNED_AXES)}"
 _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
     "name": (_TEXT, lambda x: isinstance(x, str)),
     "urdf": ("a path, seen from this file", lambda x: isinstance(x, str) and bool(x)),
     "feet": ("two names of links, left and right", lambda x: _is_pair(x, str) and x[0] != x[1]),  # type: ignore[index]
-    "forward": (_AXIS, lambda x: x in SIGNED),
-    "up": (_AXIS, lambda x: x in SIGNED),
+    "forward": (_AXIS, lambda x: x in SIGNED_AXES),
+    "up": (_AXIS, lambda x: x in SIGNED_AXES),
     "stand_deg": ("a table of joint = angle", lambda x: _is_table(x, _is_number)),
     "limits_deg": ("a table of joint = [lower, upper]", lambda x: _is_table(x, _is_range)),
     "title": (_TEXT, lambda x: isinstance(x, str)),
     "remarks": (_TEXT, lambda x: isinstance(x, str)),
 }
-"""What a robot's record may hold, and of which kind each entry is."""
+"""Accepted entries of a robot's record, and the kind of each."""
 
 
 def load(path: str | Path) -> Target:

@@ -1,4 +1,4 @@
-"""Robots to retarget to: one record each; their URDFs come from example-robot-data, or are the user's own."""
+"""Targets of retargeting: one record for each robot, its URDF from example-robot-data or from the user."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A robot with two legs. What is left out is found from the robot's structure.
+    """A robot with two legs. Missing entries are derived from the robot's structure.
 
     Attributes:
-        name: What `retarget(..., robot=...)` calls it.
-        file: End of the URDF's path in example-robot-data, or the path of a URDF of one's own.
+        name: Its name for `retarget(..., robot=...)`.
+        file: End of the URDF's path in example-robot-data, or the path of any URDF.
         feet: Links of the left and right foot; empty: the ends of the two legs that reach down.
-        forward: Where the root link's front is, along its own axes: `"x"`, `"-x"`, `"y"` ...; empty: it
-            follows from which leg is called left.
-        up: Where its top is; empty: away from the feet.
+        forward: Axis of the root link that points forward: `"x"`, `"-x"`, `"y"` ...; empty: it follows from
+            which leg is left.
+        up: Axis of the root link that points up; empty: away from the feet.
         stand: Joint angles [rad] at which the robot stands on straight legs with level feet; zero for others.
-        limits: Joint limits [rad] to be used instead of the file's.
-        title: For people.
-        paint: Colour and opacity to show it in; None: its own colours.
-        licence: Whose files they are and under which licence, as example-robot-data says.
-        remarks: What to know.
+        limits: Joint limits [rad] that replace the file's.
+        title: Full name of the robot.
+        paint: Colour and opacity (RGBA) to draw it in; None: its own colours.
+        licence: Owner and licence of its files, as example-robot-data states them.
+        remarks: Known peculiarities of the robot or its files.
     """
 
     name: str
@@ -133,4 +133,4 @@ UNFIT: Mapping[str, str] = MappingProxyType(
         "An open-chain URDF of it can be given as a file",
     }
 )
-"""Robots that one might look for, and why they are not among `TARGETS`."""
+"""Robots that a user might expect, and the reason why they are not among `TARGETS`."""

@@ -1,7 +1,8 @@
-"""The targets in one table: legs, hips, what is missed and how near the limits, as Markdown."""
+"""Table of all targets as Markdown: legs, hips, errors of the feet, use of the joint limits."""
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterable
@@ -13,7 +14,7 @@ from exo_pin.retarget.retargeted import Retargeted
 from exo_pin.retarget.target_robots import TARGETS, Target
 from exo_pin.retarget.transfer import retarget
 
-HEAD = (
+_HEAD = (
     "robot",
     "leg joints",
     "hip, from the pelvis",
@@ -21,24 +22,29 @@ HEAD = (
     "foot by foot: ankle, foot missed",
     "nearest to a limit",
     "joint by joint: ankle off",
-    "looks",
+    "visuals",
     "licence of its files",
 )
 
 
 def markdown(gait: Gait, body: Body | None = None, targets: Iterable[Target] = TARGETS.values()) -> str:
-    """A row for each robot in this walk.
+    """A row for each robot in a walk.
+
+    Args:
+        gait: The walk.
+        body: Whose walk it is; `Body.from_stature()` if left out.
+        targets: The robots.
 
     Raises:
         DescriptionError: example-robot-data does not have one of them.
     """
-    rows = [HEAD, ("---",) * len(HEAD)]
+    rows = [_HEAD, ("---",) * len(_HEAD)]
     rows += [_row(retarget(gait, target, body)) for target in targets]
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
-def looks(urdf: str) -> str:
-    """What a URDF's visuals are, e.g. `"28 dae"`."""
+def visuals(urdf: str) -> str:
+    """Number and kinds of a URDF's visuals, e.g. `"28 dae"`."""
     root = ET.fromstring(urdf)
     names = {str(mesh.get("filename")) for mesh in root.iterfind("link/visual/geometry/mesh")}
     kinds = Counter(PurePath(name).suffix.lower().removeprefix(".") for name in names)
@@ -48,19 +54,18 @@ def looks(urdf: str) -> str:
 
 
 def _row(walk: Retargeted) -> tuple[str, ...]:
-    facts, use = walk.facts(), walk.limit_use()
-    feet, joints = facts["foot_by_foot"], facts["joint_by_joint"]
-    tightest = max(use, key=lambda name: round(use[name]["share"], 3))
-    missed = f"{_small(feet['position_error_mm_max'], 'mm')}, {_small(feet['rotation_error_deg_max'], 'deg')}"
+    shares = {name: round(use.used.use, 3) for name, use in walk.limit_use.items()}
+    tightest = max(shares, key=lambda name: shares[name])
+    position, rotation = 1e3 * walk.errors.largest_position, math.degrees(walk.errors.largest_rotation)
     return (
         f"`{walk.target.name}` {walk.target.title}",
-        str(facts["joints_per_leg"]),
-        facts["hip_order"].replace("-", ", "),
+        str(walk.biped.joints_per_leg),
+        walk.biped.hip_order.replace("-", ", "),
         f"{sum(walk.scale) / 2:.2f}",
-        missed,
-        f"`{tightest}` {100 * use[tightest]['share']:.0f} %",
-        f"{joints['position_error_mm_max']:.0f} mm",
-        looks(walk.robot.urdf),
+        f"{_small(position, 'mm')}, {_small(rotation, 'deg')}",
+        f"`{tightest}` {100 * walk.limit_use[tightest].used.use:.0f} %",
+        f"{1e3 * walk.copied_errors.largest_position:.0f} mm",
+        visuals(walk.robot.urdf),
         walk.target.licence,
     )
 

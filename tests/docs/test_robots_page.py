@@ -9,7 +9,7 @@ import pytest
 from exo_pin.cli import main
 from exo_pin.retarget import load
 from exo_pin.retarget.target_robots import UNFIT
-from exo_pin.retarget.target_table import looks
+from exo_pin.retarget.target_table import visuals
 
 PAGE = (Path(__file__).parents[2] / "docs" / "robots.md").read_text("utf-8")
 
@@ -54,5 +54,5 @@ def test_robots_that_cannot_walk_are_named_with_their_reason():
         ('<visual><geometry><mesh filename="package://a/b.STL"/></geometry></visual>', "1 stl"),
     ],
 )
-def test_looks_count_mesh_files_by_kind(visual, said):
-    assert looks(f'<robot name="r"><link name="a">{visual}</link></robot>') == said
+def test_visuals_are_counted_by_kind_of_file(visual, said):
+    assert visuals(f'<robot name="r"><link name="a">{visual}</link></robot>') == said

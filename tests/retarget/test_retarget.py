@@ -29,20 +29,20 @@ def _walker(gait, link):
     return poses(WALKER, WALKER.from_gait(gait), [f"{side}_{link}" for side in SIDES], base=np.eye(4))
 
 
-def _feet(machine, q):
+def _feet(biped, q):
     """Poses of the feet's links in the walker's axes, their attitude seen from the standing robot."""
-    T = poses(machine.robot, q, [leg.foot for leg in machine.legs])
-    R = machine.turn.T @ T[..., :3, :3] @ np.array([leg.T[:3, :3].T for leg in machine.legs])
-    return R, T[..., :3, 3] @ machine.turn
+    T = poses(biped.robot, q, [leg.foot for leg in biped.legs])
+    R = biped.rotation.T @ T[..., :3, :3] @ np.array([leg.T[:3, :3].T for leg in biped.legs])
+    return R, T[..., :3, 3] @ biped.rotation
 
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_each_movement_has_one_joint_that_turns_the_way_its_name_says(name):
-    machine = load(name)
-    for leg in machine.legs:
+    biped = load(name)
+    for leg in biped.legs:
         assert set(leg.movements) <= {joint.removeprefix("left_") for joint in JOINTS}
         for joint, movement, axis in zip(leg.joints, leg.movements, leg.axes, strict=True):
-            assert machine.robot.column(joint) >= 0
+            assert biped.robot.column(joint) >= 0
             main_axis = {"flexion": 1, "adduction": 0, "rotation": 2, "dorsiflexion": 1, "inversion": 0}
             assert abs(axis[main_axis[movement.split("_")[1]]]) > 0.9
 
@@ -63,9 +63,9 @@ def test_left_is_left_and_up_is_up(name):
 def test_positive_angles_move_the_left_foot_as_the_walker_s(name, movement, axis, sign):
     bent = np.zeros((2, 12))
     bent[:, JOINTS.index(f"left_{movement}")] = 0.3
-    machine = load(name)
-    _, before = _feet(machine, machine.stand)
-    _, after = _feet(machine, joint_by_joint(Gait([0.0, 1.0], bent), machine)[0])
+    biped = load(name)
+    _, before = _feet(biped, biped.stand)
+    _, after = _feet(biped, joint_by_joint(Gait([0.0, 1.0], bent), biped)[0])
     assert sign * (after - before)[0, axis] > 0.05
     assert after[1] == pytest.approx(before[1], abs=1e-9)  # the other foot keeps still
 
@@ -73,8 +73,8 @@ def test_positive_angles_move_the_left_foot_as_the_walker_s(name, movement, axis
 @pytest.mark.parametrize("name", SIX)
 def test_joint_by_joint_gives_the_feet_the_walker_s_attitude_whatever_the_hip_s_order(name, rng):
     gait = Gait(np.arange(10) / 10, rng.uniform(-0.4, 0.4, (10, 12)))
-    machine = load(name)
-    R, _ = _feet(machine, joint_by_joint(gait, machine))
+    biped = load(name)
+    R, _ = _feet(biped, joint_by_joint(gait, biped))
     assert np.abs(R - _walker(gait, "sole_plate")[..., :3, :3]).max() < ROUNDED
 
 
@@ -86,9 +86,11 @@ def test_foot_by_foot_reaches_every_foot_within_the_limits(walked, name):
     assert turn.max() <= REACHED
     assert result.copied_errors[1].max() <= ROUNDED
     result.robot.check_limits(result.q)
-    assert result.facts()["samples_missed"] == 0
-    assert max(use["share"] for use in result.limit_use().values()) <= 1 + 1e-9
-    assert not any(use["samples_outside"] for use in result.limit_use().values())  # as docs/robots.md says
+    assert result.samples_missed == 0
+    assert max(used.use for used, _ in result.limit_use.values()) <= 1 + 1e-9
+    assert not any(
+        copied.samples_outside for _, copied in result.limit_use.values()
+    )  # as docs/robots.md says
 
 
 @pytest.mark.parametrize("name", TARGETS)
@@ -96,9 +98,9 @@ def test_in_the_world_ankles_go_the_walker_s_way_scaled_and_feet_are_turned_alik
     result = walked[name]
     walker = GAIT.base[:, None] @ _walker(GAIT, "sole_plate")
     hips = GAIT.base[:, None] @ _walker(GAIT, "thigh")
-    R, place = _feet(result.machine, result.q)
-    root = result.base[:, :3, :3] @ result.machine.turn
-    for k, leg in enumerate(result.machine.legs):
+    R, place = _feet(result.biped, result.q)
+    root = result.base[:, :3, :3] @ result.biped.rotation
+    for k, leg in enumerate(result.biped.legs):
         ankle = place[:, k] + R[:, k] @ leg.T[:3, :3] @ leg.ankle_in_foot
         path = (root @ (ankle - leg.hip)[..., None])[..., 0]
         asked = (walker - hips)[:, k, :3, 3]
@@ -119,7 +121,7 @@ def test_point_feet_are_placed_and_their_attitude_is_reported_as_lost(walked):
 
 def test_the_robot_s_root_goes_the_pelvis_s_way_scaled(walked):
     for result in walked.values():
-        middle = result.machine.turn @ (result.machine.legs[0].hip + result.machine.legs[1].hip) / 2
+        middle = result.biped.rotation @ (result.biped.legs[0].hip + result.biped.legs[1].hip) / 2
         hips = result.base[:, :3, :3] @ middle + result.base[:, :3, 3]
         assert hips == pytest.approx(np.mean(result.scale) * GAIT.base[:, :3, 3], abs=1e-12)
 
@@ -128,9 +130,9 @@ def test_the_trunk_is_upright_on_average_where_the_pelvis_leans(walked):
     leans = np.degrees(np.arctan2(-GAIT.base[:, 2, 0], GAIT.base[:, 2, 2]))
     assert leans.mean() > 5
     for result in walked.values():
-        trunk = result.base[:, :3, :3] @ result.machine.turn
+        trunk = result.base[:, :3, :3] @ result.biped.rotation
         assert np.degrees(np.arctan2(-trunk[:, 2, 0], trunk[:, 2, 2])).mean() == pytest.approx(0, abs=0.05)
-        assert result.facts()["lean_deg"] == pytest.approx(leans.mean(), abs=0.05)
+        assert np.degrees(result.lean) == pytest.approx(leans.mean(), abs=0.05)
 
 
 def test_the_permuted_limits_of_simple_humanoid_are_not_used(walked):
@@ -143,7 +145,7 @@ def test_the_permuted_limits_of_simple_humanoid_are_not_used(walked):
     left, right = (robot.joints.index(f"{side}LEG_HIP_Y") for side in "LR")
     assert (low[left], high[left]) == (-high[right], -low[right])
     raw = load(TARGETS["talos"]).robot
-    assert retarget(GAIT, raw).facts()["samples_missed"] == 0  # a loaded robot is taken as it is
+    assert retarget(GAIT, raw).samples_missed == 0  # a loaded robot is taken as it is
     assert "limits" in TARGETS["simple_humanoid"].remarks
 
 

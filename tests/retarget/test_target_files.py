@@ -13,7 +13,7 @@ from exo_pin.gait import normative_gait
 from exo_pin.gait.rigid import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load, retarget
-from exo_pin.retarget.axes import direction, named, turns
+from exo_pin.retarget.axes import angles_about, nearest_axis, unit_vector
 from exo_pin.robot import load_urdf
 
 GAIT = normative_gait().resampled(10)
@@ -30,7 +30,7 @@ def test_a_file_alone_walks_as_the_record_of_the_same_robot(name, tmp_path):
     path.write_text(text(name), "utf-8")
     alone, known = load(path), load(name)
     assert [leg.joints for leg in alone.legs] == [leg.joints for leg in known.legs]
-    assert alone.turn == pytest.approx(known.turn)
+    assert alone.rotation == pytest.approx(known.rotation)
     assert alone.robot.path == path
 
 
@@ -48,14 +48,14 @@ def test_a_record_says_feet_front_stand_and_limits(tmp_path):
         "[limits_deg]\nLLEG_KNEE = [0, 150]\nRLEG_KNEE = [-1.5, 90]\n[stand_deg]\nLARM_ELBOW = -20\n",
         "utf-8",
     )
-    machine = load(record)
-    robot = machine.robot
+    biped = load(record)
+    robot = biped.robot
     assert np.degrees(robot.upper[robot.joints.index("LLEG_KNEE")]) == pytest.approx(150)
     assert np.degrees(robot.lower[robot.joints.index("RLEG_KNEE")]) == pytest.approx(-1.5)
     result = retarget(GAIT, record)
     assert np.degrees(result.q[:, robot.column("LARM_ELBOW")]) == pytest.approx(-20)
-    assert result.facts()["title"] == "My robot"
-    assert result.facts()["remarks"] == "seen"
+    assert result.target.title == "My robot"
+    assert result.target.remarks == "seen"
 
 
 def test_a_robot_whose_zero_is_not_its_stand_walks_all_the_same(tmp_path):
@@ -182,17 +182,17 @@ def test_turns_give_back_the_angles_of_a_product_of_turns(axes, rng):
     R = np.tile(np.eye(3), (50, 1, 1))
     for k, axis in enumerate(axes):
         R = R @ about(axis, q[:, k])
-    assert turns(axes, R) == pytest.approx(q, abs=1e-7)
+    assert angles_about(axes, R) == pytest.approx(q, abs=1e-7)
 
 
 def test_axes_in_a_plane_are_no_hip():
     with pytest.raises(DescriptionError, match="plane"):
-        turns([[0, 1, 0], [1, 0, 0], [0, 1, 0]], np.eye(3)[None])
+        angles_about([[0, 1, 0], [1, 0, 0], [0, 1, 0]], np.eye(3)[None])
 
 
 def test_directions_have_names_and_back():
     for name in ("x", "-x", "y", "-y", "z", "-z"):
-        assert named(direction(name)) == name
+        assert nearest_axis(unit_vector(name)) == name
 
 
 @pytest.mark.parametrize(

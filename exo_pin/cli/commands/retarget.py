@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from exo_pin.cli import options, show
 from exo_pin.files import write_text
 
 if TYPE_CHECKING:
-    from exo_pin.retarget import Retargeted
+    from exo_pin.retarget import LimitUse, Retargeted
+    from exo_pin.retarget.retargeted import FootErrors
 
 _EXAMPLES = """examples:
   exo-pin retarget --robot talos -o joints.csv
@@ -61,40 +63,54 @@ def run(args: argparse.Namespace) -> int:
         _print(result, Path(args.gait).name)
     if args.output:
         write_text(args.output, _csv(result))
-    return 1 if result.facts()["samples_missed"] else 0
+    return 1 if result.samples_missed else 0
 
 
 def _print(result: Retargeted, name: str) -> None:
-    facts = result.facts()
-    feet, joints = facts["foot_by_foot"], facts["joint_by_joint"]
+    feet, copied, biped = result.errors, result.copied_errors, result.biped
     rows = [
         ["legs, times the body's", f"{result.scale[0]:.3f}, {result.scale[1]:.3f}"],
-        ["joints per leg, hip's order", f"{facts['joints_per_leg']}, {facts['hip_order']}"],
-        ["samples", str(facts["samples"])],
-        ["samples with a foot missed", str(facts["samples_missed"])],
-        ["ankle's distance, rms and max", _pair(feet, "position_error_mm", "mm")],
-        ["foot's angle, rms and max", _pair(feet, "rotation_error_deg", "deg")],
-        ["joint by joint: ankle's distance", _pair(joints, "position_error_mm", "mm")],
-        ["joint by joint: foot's angle", _pair(joints, "rotation_error_deg", "deg")],
+        ["joints per leg, hip's order", f"{biped.joints_per_leg}, {biped.hip_order}"],
+        ["samples", str(len(result.gait))],
+        ["samples with a foot missed", str(result.samples_missed)],
+        ["ankle's distance, rms and max", _position(feet)],
+        ["foot's angle, rms and max", _rotation(feet)],
+        ["joint by joint: ankle's distance", _position(copied)],
+        ["joint by joint: foot's angle", _rotation(copied)],
     ]
     show.table(f"{name} on {result.target.title or result.target.name}", ["foot by foot", ""], rows)
     head = ["joint", "limits deg", "used deg", "use", "copied deg", "outside"]
-    show.table("Joints", head, [_line(joint, use) for joint, use in facts["joints"].items()])
+    show.table("Joints", head, [_line(joint, use) for joint, use in result.limit_use.items()])
     if result.target.remarks:
         print(result.target.remarks)
 
 
-def _pair(residuals: dict[str, float], name: str, unit: str) -> str:
-    return f"{residuals[f'{name}_rms']:.3f}, {residuals[f'{name}_max']:.3f} {unit}"
+def _position(errors: FootErrors) -> str:
+    """Root mean square and largest distance of the ankles."""
+    return f"{1e3 * errors.position_rms:.3f}, {1e3 * errors.largest_position:.3f} mm"
 
 
-def _line(joint: str, use: dict[str, Any]) -> list[str]:
-    ranges = [
-        f"{show.fixed(low)} .. {show.fixed(high)}"
-        for low, high in (use["limits_deg"], use["used_deg"], use["asked_deg"])
+def _rotation(errors: FootErrors) -> str:
+    """Root mean square and largest angle of the feet."""
+    return f"{math.degrees(errors.rotation_rms):.3f}, {math.degrees(errors.largest_rotation):.3f} deg"
+
+
+def _line(joint: str, use: LimitUse) -> list[str]:
+    used, copied = use
+    share = "-" if math.isnan(used.use) else f"{100 * used.use:.0f} %"
+    limits, taken = _degrees(*used.available), _degrees(used.lowest, used.highest)
+    return [
+        joint,
+        limits,
+        taken,
+        share,
+        _degrees(copied.lowest, copied.highest),
+        str(copied.samples_outside or "-"),
     ]
-    share = f"{100 * use['limit_use']:.0f} %"
-    return [joint, ranges[0], ranges[1], share, ranges[2], str(use["samples_outside"] or "-")]
+
+
+def _degrees(low: float, high: float) -> str:
+    return f"{show.fixed(math.degrees(low))} .. {show.fixed(math.degrees(high))}"
 
 
 def _csv(result: Retargeted) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from exo_pin.ground.placement import moved
 from exo_pin.kinematics import poses
-from exo_pin.retarget import Machine
+from exo_pin.retarget import Biped
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place, translation
 from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
@@ -17,7 +17,7 @@ PLATE = 0.02
 """Thickness of the foot plate that is drawn where a robot has no feet to show [m]."""
 
 
-def dressed(machine: Machine, root: str, paint: Material | None) -> tuple[Linkage, Meshes]:
+def dressed(biped: Biped, root: str, paint: Material | None) -> tuple[Linkage, Meshes]:
     """The robot's links with their looks.
 
     Where COLLADA files say that y is up, some tools turn them and some do not, and robots are made for the
@@ -25,23 +25,23 @@ def dressed(machine: Machine, root: str, paint: Material | None) -> tuple[Linkag
     """
     tried = []
     for turned in (False, True):
-        meshes = Meshes(machine.robot.path, height(machine), turned=turned)
-        tree = linkage(machine.robot.urdf, root, paint=paint, meshes=meshes)
+        meshes = Meshes(biped.robot.path, height(biped), turned=turned)
+        tree = linkage(biped.robot.urdf, root, paint=paint, meshes=meshes)
         if not meshes.y_up:
             return tree, meshes
-        tried.append((_apart(machine, tree), turned, tree, meshes))
+        tried.append((_apart(biped, tree), turned, tree, meshes))
     *_, tree, meshes = min(tried, key=lambda one: one[:2])
     return tree, meshes
 
 
-def _apart(machine: Machine, tree: Linkage) -> float:
+def _apart(biped: Biped, tree: Linkage) -> float:
     """How far the joints that hang on links lie outside of the boxes around their looks, in sum [m]."""
-    robot, apart = machine.robot, 0.0
+    robot, apart = biped.robot, 0.0
     for joint in robot.joints:
         index = robot.model.frames[robot.frame(joint)].parentFrame
         link = str(robot.model.frames[index].name)
         if link in tree.shapes:
-            T_link, T_joint = poses(robot, machine.stand, (link, joint))
+            T_link, T_joint = poses(robot, biped.stand, (link, joint))
             place = moved(np.linalg.inv(T_link), T_joint[:3, 3])
             corners = tree.shapes[link].vertices
             outside = np.maximum(corners.min(axis=0) - place, place - corners.max(axis=0))
@@ -49,10 +49,10 @@ def _apart(machine: Machine, tree: Linkage) -> float:
     return apart
 
 
-def bare(machine: Machine, sole: Sole, tree: Linkage) -> bool:
+def bare(biped: Biped, sole: Sole, tree: Linkage) -> bool:
     """Whether nothing is drawn of a foot, with its fixed parts."""
-    model = machine.robot.model
-    joint = model.frames[machine.robot.frame(sole.link)].parentJoint
+    model = biped.robot.model
+    joint = model.frames[biped.robot.frame(sole.link)].parentJoint
     return not any(frame.parentJoint == joint and frame.name in tree.shapes for frame in model.frames)
 
 
@@ -68,19 +68,19 @@ def plate(tree: Linkage, sole: Sole) -> list[Command]:
     ]
 
 
-def height(machine: Machine) -> float:
+def height(biped: Biped) -> float:
     """From the lowest to the highest joint, standing [m]; at least twice the legs."""
-    robot = machine.robot
-    T = poses(robot, machine.stand, robot.joints)
-    return max(float(np.ptp((T[:, :3, 3] @ machine.turn)[:, 2])), 2 * machine.legs[0].reach)
+    robot = biped.robot
+    T = poses(robot, biped.stand, robot.joints)
+    return max(float(np.ptp((T[:, :3, 3] @ biped.rotation)[:, 2])), 2 * biped.legs[0].reach)
 
 
-def highest(machine: Machine, tree: Linkage) -> float:
+def highest(biped: Biped, tree: Linkage) -> float:
     """The highest point of the robot above its root, standing [m]."""
     links = list(tree.shapes)
     if not links:
         return 0.0
-    T = poses(machine.robot, machine.stand, links)
-    up = machine.turn[:, 2]
+    T = poses(biped.robot, biped.stand, links)
+    up = biped.rotation[:, 2]
     rows = zip(links, T, strict=True)
     return max(float((moved(pose, tree.shapes[link].vertices) @ up).max()) for link, pose in rows)

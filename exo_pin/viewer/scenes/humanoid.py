@@ -11,7 +11,7 @@ import numpy as np
 from exo_pin.gait import Gait
 from exo_pin.ground.placement import Placement, moved, stood
 from exo_pin.kinematics import center_of_mass, poses
-from exo_pin.retarget import Machine, Retargeted, retarget
+from exo_pin.retarget import Biped, Retargeted, retarget
 from exo_pin.viewer.drawing_commands import Material
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
 from exo_pin.viewer.scenes import joint_plots
@@ -44,54 +44,54 @@ def humanoid(
     Raises:
         UnknownNameError: There is no such support.
     """
-    machine = result.machine
-    color = machine.target.paint
+    biped = result.biped
+    color = biped.target.paint
     paint = None if color is None else Material(color, 0.6, 0.0)
-    tree, meshes = dressed(machine, f"{ROOT}/exo", paint)
-    feet = soles(machine, tree.shapes)
+    tree, meshes = dressed(biped, f"{ROOT}/exo", paint)
+    feet = soles(biped, tree.shapes)
     shown = _motion(result, feet, support)
     actors = [_actor(result, shown, tree, feet)]
     tabs, notes = _tabs(result), _notes(result, meshes, tree)
     if compare is not None:
-        second = retarget(aligned(result.gait, compare), machine, result.body)
+        second = retarget(aligned(result.gait, compare), biped, result.body)
         actors.append(_ghost(second, feet, support, compare_title))
         tabs = joint_plots.beside(tabs, _tabs(second))
         notes.append(in_step(result.gait, compare))
     return Play(
-        robot=machine.robot,
+        robot=biped.robot,
         gait=result.gait,
         shown=shown,
         actors=tuple(actors),
         mounts=tuple(_mount(tree, sole) for sole in feet),
-        grips=tuple(Grip(leg.foot, leg.side) for leg in machine.legs if leg.whole),
+        grips=tuple(Grip(leg.foot, leg.side) for leg in biped.legs if leg.reaches_any_pose),
         tabs=tabs,
         reference="joint by joint",
         compared="" if compare is None else compare_title,
-        top=highest(machine, tree) + HEADROOM,
+        top=highest(biped, tree) + HEADROOM,
         notes=(*notes, *_dips(shown, feet)),
     )
 
 
 def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Placement:
-    machine = result.machine
-    T = poses(machine.robot, result.q, [sole.link for sole in feet]) @ np.array([sole.T for sole in feet])
+    biped = result.biped
+    T = poses(biped.robot, result.q, [sole.link for sole in feet]) @ np.array([sole.T for sole in feet])
     corners = np.tile(np.eye(4), (len(T), 2, 4, 1, 1))
     for k, sole in enumerate(feet):
         corners[:, k, :, :3, 3] = sole.corners @ np.swapaxes(T[:, k, :3, :3], -1, -2) + T[:, k, None, :3, 3]
     seen = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
-    com = center_of_mass(machine.robot, result.q).position
-    return stood(result.gait, machine.robot.angles(result.q), result.base, seen, com, support, "The pelvis")
+    com = center_of_mass(biped.robot, result.q).position
+    return stood(result.gait, biped.robot.angles(result.q), result.base, seen, com, support, "The pelvis")
 
 
 def _actor(result: Retargeted, shown: Placement, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
     """The robot; only its legs' joints have sliders."""
-    sides = {joint: leg.side for leg in result.machine.legs for joint in leg.joints}
+    sides = {joint: leg.side for leg in result.biped.legs for joint in leg.joints}
     turns = tuple(
         replace(turn, side=sides[turn.name]) if turn.name in sides else replace(turn, limits=None)
         for turn in tree.turns
     )
     chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
-    plates = [sole for sole in feet if sole.link not in tree.shapes and bare(result.machine, sole, tree)]
+    plates = [sole for sole in feet if sole.link not in tree.shapes and bare(result.biped, sole, tree)]
     commands = (*tree.commands, *(command for sole in plates for command in plate(tree, sole)))
     looks = (*tree.looks, *(f"{tree.links[sole.link]}/plate" for sole in plates))
     title = result.target.title or result.target.name
@@ -100,7 +100,7 @@ def _actor(result: Retargeted, shown: Placement, tree: Linkage, feet: tuple[Sole
 
 def _ghost(result: Retargeted, feet: tuple[Sole, Sole], support: str, title: str) -> Actor:
     shown = _motion(result, feet, support)
-    tree, _ = dressed(result.machine, f"{ROOT}/ghost", GHOST)
+    tree, _ = dressed(result.biped, f"{ROOT}/ghost", GHOST)
     chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
     arrays = samples(result.robot, shown, tree, "ghost_")
     return Actor(tree.commands, chain, arrays, Group(f"Ghost: {title}", tree.looks))
@@ -115,7 +115,7 @@ def _mount(tree: Linkage, sole: Sole) -> Mount:
 def _tabs(result: Retargeted) -> tuple[joint_plots.Tab, ...]:
     """The leg joints' own curves, in the robot's own signs; dashed: joint by joint."""
     time, joints = result.time - result.time[0], result.joints
-    labels = _labels(result.machine)
+    labels = _labels(result.biped)
     solved = joint_plots.of_robot(result.robot, time, result.q, joints)
     copied = joint_plots.of_robot(result.robot, time, result.copied, joints)
     return tuple(
@@ -124,9 +124,9 @@ def _tabs(result: Retargeted) -> tuple[joint_plots.Tab, ...]:
     )
 
 
-def _labels(machine: Machine) -> tuple[str, ...]:
+def _labels(biped: Biped) -> tuple[str, ...]:
     """What the plots call the joints: side, what left and right names share, and what it is in a person."""
-    left, right = machine.legs
+    left, right = biped.legs
     shared = [_shared(*pair) for pair in zip(left.joints, right.joints, strict=True)]
     return tuple(
         f"{leg.side}_{name} ({movement.replace('_', ' ')})"
@@ -143,12 +143,13 @@ def _shared(left: str, right: str) -> str:
 
 
 def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
-    facts = result.facts()
-    target = result.target
-    place = facts["foot_by_foot"]["position_error_mm_max"]
-    turn = facts["foot_by_foot"]["rotation_error_deg_max"]
-    legs = f"{facts['joints_per_leg']} joints per leg, hip {facts['hip_order']}"
-    lean = f"the trunk is upright, the hips take over {facts['lean_deg']:.1f} degrees of the pelvis's lean"
+    target, biped = result.target, result.biped
+    place = 1e3 * result.errors.largest_position
+    turn = np.degrees(result.errors.largest_rotation)
+    legs = f"{biped.joints_per_leg} joints per leg, hip {biped.hip_order}"
+    lean = (
+        f"the trunk is upright, the hips take over {np.degrees(result.lean):.1f} degrees of the pelvis's lean"
+    )
     notes = [
         f"{target.title or target.name}: {legs}; the feet's paths are {np.mean(result.scale):.2f} times the "
         f"person's, missed by {place:.2f} mm and {turn:.1f} degrees at most; {lean}. "

@@ -10,7 +10,7 @@ import pinocchio as pin
 from exo_pin.anatomy import Body, Leg
 from exo_pin.arrays import Array
 from exo_pin.kinematics import poses
-from exo_pin.retarget import Machine
+from exo_pin.retarget import Biped
 from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.viewer.meshes.solids import Solid
 
@@ -50,17 +50,17 @@ class Sole:
         return float(heel + self.tip) / 2, float(y.min() + y.max()) / 2
 
 
-def soles(machine: Machine, shapes: dict[str, Solid]) -> tuple[Sole, Sole]:
+def soles(biped: Biped, shapes: dict[str, Solid]) -> tuple[Sole, Sole]:
     """The soles of both feet from the shapes of the links (in their own axes).
 
     A foot without a shape gets a person's sole, as long for its leg as a person's is.
     """
-    left, right = (_sole(machine, leg, shapes) for leg in machine.legs)
+    left, right = (_sole(biped, leg, shapes) for leg in biped.legs)
     return left, right
 
 
-def _sole(machine: Machine, leg: RobotLeg, shapes: dict[str, Solid]) -> Sole:
-    points = _points(machine, leg, shapes)
+def _sole(biped: Biped, leg: RobotLeg, shapes: dict[str, Solid]) -> Sole:
+    points = _points(biped, leg, shapes)
     if not len(points):
         return _person_s(leg)
     ground = float(points[:, 2].min())
@@ -70,9 +70,9 @@ def _sole(machine: Machine, leg: RobotLeg, shapes: dict[str, Solid]) -> Sole:
     return _at(leg, ground, middle - half, middle + half)
 
 
-def _points(machine: Machine, leg: RobotLeg, shapes: dict[str, Solid]) -> Array:
+def _points(biped: Biped, leg: RobotLeg, shapes: dict[str, Solid]) -> Array:
     """Vertices (k, 3) of all that moves with the foot's last joint, standing, in the walker's axes [m]."""
-    robot = machine.robot
+    robot = biped.robot
     joint = robot.model.frames[robot.frame(leg.foot)].parentJoint
     links = [
         str(frame.name)
@@ -81,9 +81,9 @@ def _points(machine: Machine, leg: RobotLeg, shapes: dict[str, Solid]) -> Array:
     ]
     if not links:
         return np.zeros((0, 3))
-    T = poses(robot, machine.stand, links)
+    T = poses(robot, biped.stand, links)
     rows = [shapes[link].vertices @ T[k, :3, :3].T + T[k, :3, 3] for k, link in enumerate(links)]
-    return np.asarray(np.concatenate(rows) @ machine.turn)
+    return np.asarray(np.concatenate(rows) @ biped.rotation)
 
 
 def _person_s(leg: RobotLeg) -> Sole:

@@ -1,4 +1,4 @@
-"""A target made ready: its URDF found and loaded, its legs read, its axes known."""
+"""Two-legged robots: the URDF of a target found and loaded, its legs and axes read."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.examples import located
 from exo_pin.files import read_text
 from exo_pin.retarget import leg_search, target_file
-from exo_pin.retarget.axes import direction
+from exo_pin.retarget.axes import unit_vector
 from exo_pin.retarget.robot_legs import RobotLeg, robot_leg
 from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf
 
-PI = repr(math.pi)
+_PI = repr(math.pi)
 
 
 @dataclass(frozen=True, eq=False)
-class Machine:
-    """A robot with two legs, ready to walk.
+class Biped:
+    """A robot with two legs to which a walk can be retargeted.
 
     Attributes:
-        target: Its record, what was left out filled in.
-        robot: The robot, its root at the origin.
+        target: Its record.
+        robot: The robot; its root stands at the origin.
         stand: Configuration (nq,) at which it stands.
-        turn: Rotation (3, 3) from the walker's axes (x forward, y left, z up) to the root link's.
+        rotation: Rotation matrix (3, 3) from the walker's axes (x forward, y left, z up) to the root link's.
         legs: Left and right.
     """
 
     target: Target
     robot: Robot
     stand: Array
-    turn: Array
+    rotation: Array
     legs: tuple[RobotLeg, RobotLeg]
 
     @property
@@ -46,13 +46,23 @@ class Machine:
         """The joints of both legs, left first."""
         return self.legs[0].joints + self.legs[1].joints
 
+    @property
+    def joints_per_leg(self) -> int:
+        """Number of joints of each leg."""
+        return len(self.legs[0].joints)
+
+    @property
+    def hip_order(self) -> str:
+        """The hip's axes from the pelvis outwards, in words."""
+        return self.legs[0].hip_order
+
 
 def find(target: str | Path | Target) -> Target:
-    """The target of that name, or of that file (a URDF, or a TOML record of one); a record is handed back.
+    """The target of a name, or of a file (a URDF, or a TOML record of one); a record is returned as it is.
 
     Raises:
-        UnknownNameError: There is none.
-        DescriptionError: It cannot be retargeted to, and why.
+        UnknownNameError: There is no such target.
+        DescriptionError: Walks cannot be retargeted to it; the message has the reason.
         FormatError: The record is not accepted.
     """
     if isinstance(target, Target):
@@ -71,7 +81,7 @@ def find(target: str | Path | Target) -> Target:
     raise UnknownNameError("robot (a name, a .urdf or a .toml record)", str(target), TARGETS)
 
 
-def load(target: str | Path | Target) -> Machine:
+def load(target: str | Path | Target) -> Biped:
     """The target's robot, its base held at the origin.
 
     Raises:
@@ -81,11 +91,11 @@ def load(target: str | Path | Target) -> Machine:
     """
     found = find(target)
     path = _packaged(found) if isinstance(found.file, str) else found.file
-    return ready(found, load_urdf(_prepared(found, path), path=path))
+    return as_biped(found, load_urdf(_prepared(found, path), path=path))
 
 
-def ready(target: Target, robot: Robot) -> Machine:
-    """A robot that is loaded already as a machine; what the record leaves out is found.
+def as_biped(target: Target, robot: Robot) -> Biped:
+    """A loaded robot as a biped; feet and directions that its record lacks are found in its structure.
 
     Raises:
         UnknownNameError: A joint or link of the record is unknown.
@@ -97,25 +107,25 @@ def ready(target: Target, robot: Robot) -> Machine:
         feet, up = leg_search.feet_and_up(robot, stand, target.up)
     left, right = feet
     front = target.forward or leg_search.forward(robot, stand, (left, right), up)
-    turn = _turn(front, up)
+    rotation = _rotation(front, up)
     legs = [
-        robot_leg(robot, side, foot, joints, stand, turn)
+        robot_leg(robot, side, foot, joints, stand, rotation)
         for side, foot, joints in zip(
-            SIDES, (left, right), leg_search.chains(robot, (left, right)), strict=True
+            SIDES, (left, right), leg_search.leg_joints(robot, (left, right)), strict=True
         )
     ]
-    return Machine(target, robot, stand, turn, (legs[0], legs[1]))
+    return Biped(target, robot, stand, rotation, (legs[0], legs[1]))
 
 
-def _turn(front: str, up: str) -> Array:
-    x, z = direction(front), direction(up)
+def _rotation(front: str, up: str) -> Array:
+    x, z = unit_vector(front), unit_vector(up)
     if abs(x @ z) > 0:
         raise DescriptionError(f"forward is {front} and up is {up}; they must be square to each other")
     return np.stack([x, np.cross(z, x), z], axis=1)
 
 
 def _packaged(target: Target) -> Path:
-    """Where example-robot-data has the target's URDF."""
+    """Path of the target's URDF in example-robot-data."""
     path = located(str(target.file))
     if path is None:
         raise DescriptionError(f"{target.name} needs example-robot-data, which has no {target.file} here")
@@ -123,7 +133,7 @@ def _packaged(target: Target) -> Path:
 
 
 def _prepared(target: Target, path: Path) -> str:
-    """The URDF's text with the record's limits in it, and only joints of one number with limits."""
+    """The URDF's text with the record's limits, all moving joints revolute or prismatic and limited."""
     text = read_text(path)
     try:
         root = ET.fromstring(text)
@@ -144,7 +154,7 @@ def _prepared(target: Target, path: Path) -> str:
 
 
 def _bounded(joint: ET.Element) -> None:
-    """An endless joint gets half a turn each way, one that floats or glides in a plane is held."""
+    """Limit a continuous joint to half a revolution each way; fix a floating or planar one."""
     if joint.get("type") in ("floating", "planar"):
         joint.set("type", "fixed")
     elif joint.get("type") == "continuous":
@@ -152,5 +162,5 @@ def _bounded(joint: ET.Element) -> None:
         limit = joint.find("limit")
         if limit is None:
             limit = ET.SubElement(joint, "limit", effort="0", velocity="0")
-        limit.set("lower", f"-{PI}")
-        limit.set("upper", PI)
+        limit.set("lower", f"-{_PI}")
+        limit.set("upper", _PI)
