@@ -1,35 +1,26 @@
-"""What a device loses of a walk: its best motion towards the recorded feet, and what is left to wish."""
+"""Loss of a walk on a device: its best motion towards the recorded feet, and the remaining errors."""
 
-from exo_pin.compare.best_motion import (
-    CONDITIONS,
-    Conditions,
-    Motion,
-    Walk,
-    best,
-    dressed,
-    projected,
-    robot_for,
-    walk,
-)
+from exo_pin.compare.best_motion import Motion, best, dressed, projected, robot_for
 from exo_pin.compare.comparison import Comparison, compare
-from exo_pin.compare.joint_choices import Worth, worth
-from exo_pin.compare.loss import Loss
+from exo_pin.compare.joint_choices import JointChoices, compare_joints
+from exo_pin.compare.loss import Loss, Spread
+from exo_pin.compare.recorded_walk import Conditions, Walk, walk
 from exo_pin.gait.phases import PHASES
 
 __all__ = [
-    "CONDITIONS",
     "PHASES",
     "Comparison",
     "Conditions",
+    "JointChoices",
     "Loss",
     "Motion",
+    "Spread",
     "Walk",
-    "Worth",
     "best",
     "compare",
+    "compare_joints",
     "dressed",
     "projected",
     "robot_for",
     "walk",
-    "worth",
 ]

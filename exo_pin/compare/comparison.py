@@ -10,21 +10,23 @@ from typing import Any
 
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
-from exo_pin.compare.best_motion import GRANTED, Conditions, Walk, best, projected, robot_for, walk
-from exo_pin.compare.loss import Loss, clearance, number, step_width
+from exo_pin.compare.best_motion import best, projected, robot_for
+from exo_pin.compare.loss import Loss, clearance, step_width
+from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, walk
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
+from exo_pin.files import json_number
 from exo_pin.gait import Gait
 from exo_pin.kinematics import with_events
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What each device loses of one walk.
+    """The loss of every device under one walk.
 
     Attributes:
         walk: The recorded walk on the full exoskeleton.
-        conditions: What the devices were granted.
+        conditions: Who moves the pelvis, and whether passive joints are held.
         best: The best motions, least loss first.
         projected: The plain copies, in the same order of devices.
     """
@@ -42,8 +44,8 @@ class Comparison:
             "body": {} if body is None else {"stature_m": body.stature, "mass_kg": body.mass},
             "conditions": dataclasses.asdict(self.conditions),
             "recorded": {
-                "step_width_mm": number(1e3 * step_width(self.walk, self.walk.feet)),
-                "clearance_mm": number(1e3 * clearance(self.walk, self.walk.corners)),
+                "step_width_mm": json_number(1e3 * step_width(self.walk, self.walk.feet)),
+                "clearance_mm": json_number(1e3 * clearance(self.walk, self.walk.corners)),
             },
             "best": [loss.facts() for loss in self.best],
             "projected": [loss.facts() for loss in self.projected],
@@ -55,22 +57,22 @@ def compare(
     devices: Iterable[str | Device] = tuple(known.DEVICES),
     body: Body | None = None,
     *,
-    conditions: Conditions = GRANTED,
+    conditions: Conditions = DEFAULT_CONDITIONS,
 ) -> Comparison:
-    """Put every device through the same walk.
+    """Compare devices under the same walk.
 
     Args:
-        gait: The walk; without events of its own they are found from its kinematics, if it has cycles.
+        gait: The walk. Events that it lacks are detected in its kinematics, if it has cycles.
         devices: Names, device files or records; all known ones if left out.
         body: Who wears them; `Body.from_stature()` if left out.
-        conditions: What the devices are granted.
+        conditions: Who moves the pelvis, and whether passive joints are held.
 
     Raises:
         UnknownNameError: A device is unknown.
     """
     body = Body.from_stature() if body is None else body
     recorded = walk(gait, body)
-    with contextlib.suppress(GaitError):  # no cycles: phases, step width and clearance are then unknown
+    with contextlib.suppress(GaitError):  # without cycles phases, step width and clearance are unknown
         recorded = dataclasses.replace(recorded, gait=with_events(recorded.robot, gait))
     pairs = []
     for device in map(known.find, devices):

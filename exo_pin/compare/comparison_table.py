@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from exo_pin.compare.comparison import Comparison
-from exo_pin.compare.joint_choices import Worth
+from exo_pin.compare.joint_choices import JointChoices
 from exo_pin.compare.loss import Loss
 
 COLUMNS = (
@@ -40,25 +41,25 @@ def phase_rows(comparison: Comparison) -> list[list[str]]:
     ]
 
 
-def front_rows(worth: Worth) -> list[list[str]]:
-    """The best choice of joints for each number of motors, as `FRONT` says."""
+def front_rows(choices: JointChoices) -> list[list[str]]:
+    """The best choice of joints for each number of motors, under the headings `FRONT`."""
     return [
-        [str(motors), _fixed(1e3 * loss), ", ".join(chosen) or "none"]
-        for motors, chosen, loss in worth.pareto
+        [str(motors), _fixed(1e3 * loss), ", ".join(movements) or "none"]
+        for motors, movements, loss in choices.pareto
     ]
 
 
-def single_rows(worth: Worth) -> list[list[str]]:
-    """One movement locked, or added after the others, as `SINGLE` says; the dearest first."""
-    places = {movement: (k, left) for k, (movement, left) in enumerate(worth.add_one_in, 1)}
+def single_rows(choices: JointChoices) -> list[list[str]]:
+    """One movement locked, or added to the others, under the headings `SINGLE`; the largest loss first."""
+    places = {movement: (k, left) for k, (movement, left) in enumerate(choices.add_one_in, 1)}
     return [
         [m, _fixed(1e3 * loss), f"{places[m][0]}.", _fixed(1e3 * places[m][1])]
-        for m, loss in worth.leave_one_out.items()
+        for m, loss in choices.leave_one_out.items()
     ]
 
 
 def markdown(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
-    """A Markdown table."""
+    """A Markdown table of rows of text under headings."""
     table = [columns, ["---", *["---:"] * (len(columns) - 1)], *lines]
     return "\n".join("| " + " | ".join(line) + " |" for line in table) + "\n"
 
@@ -69,32 +70,32 @@ def csv(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
 
 
 def conditions(comparison: Comparison) -> str:
-    """What was compared, in a sentence."""
-    walk, granted = comparison.walk, comparison.conditions
+    """The walk, the body and the conditions of a comparison, in a sentence."""
+    walk = comparison.walk
     body = walk.robot.body
     who = "" if body is None else f"body {body.stature:g} m, {body.mass:g} kg; "
     pelvis = {
         "recorded": "every pelvis moves as recorded",
         "device": "every pelvis as its device holds it (upright; slides as they suit the feet)",
-    }[granted.pelvis]
+    }[comparison.conditions.pelvis]
     return (
         f"{walk.gait.source or 'gait'}: {len(walk.gait)} samples, {walk.gait.duration:.2f} s; {who}{pelvis}; "
-        f"passive joints {granted.passive}; the default joint limits and speeds or the device's own are kept."
+        f"passive joints {comparison.conditions.passive}; the default joint limits and speeds or the "
+        "device's own are kept."
     )
 
 
 def _row(best: Loss, copied: Loss) -> list[str]:
-    facts = best.facts()
     values = [
-        facts["sole_error_mm"]["rms"],
-        facts["sole_error_mm"]["max"],
-        facts["position_error_mm"]["rms"],
-        facts["rotation_error_deg"]["rms"],
+        1e3 * best.sole_spread.rms,
+        1e3 * best.sole_spread.max,
+        1e3 * best.position_spread.rms,
+        math.degrees(best.rotation_spread.rms),
         1e3 * copied.rms,
         1e3 * best.step_width_lost,
         1e3 * best.clearance_lost,
-        facts["angle_change_deg"]["knee_flexion"],
-        facts["com_error_mm"],
+        math.degrees(best.angle_change["knee_flexion"]),
+        1e3 * best.com_error,
     ]
     return [best.device.name, str(best.device.motors), *map(_fixed, values)]
 

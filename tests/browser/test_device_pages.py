@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from exo_pin import report, study
-from exo_pin.compare import Conditions, compare, worth
+from exo_pin.compare import Conditions, compare, compare_joints
 from exo_pin.gait import normative_gait
 
 PHONE, WALL = 360, 2560  # [px]
@@ -18,7 +18,7 @@ def comparison():
     gait = normative_gait().resampled(20)
     compared = compare(gait, DEVICES, conditions=Conditions("device"))
     speeds = {"free": compared, "very_fast": compared}
-    return report.comparison(compared, name="a walk " * 20, speeds=speeds, worth=worth(gait))
+    return report.comparison(compared, name="a walk " * 20, speeds=speeds, worth=compare_joints(gait))
 
 
 def study_page():

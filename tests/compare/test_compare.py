@@ -10,8 +10,19 @@ from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, Body
 from exo_pin.anatomy.hip import hip_angles
 from exo_pin.cli import main
-from exo_pin.compare import PHASES, Conditions, best, compare, comparison_table, dressed, projected, walk
-from exo_pin.compare.best_motion import SETTINGS, corners, robot_for
+from exo_pin.compare import (
+    PHASES,
+    Conditions,
+    best,
+    compare,
+    comparison_table,
+    dressed,
+    projected,
+    robot_for,
+    walk,
+)
+from exo_pin.compare.best_motion import SOLVER
+from exo_pin.compare.recorded_walk import corners
 from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
@@ -54,7 +65,7 @@ def test_twelve_joints_find_the_feet_from_another_start(rng):
         @ np.pad(recorded.corners[0], ((0, 0), (0, 0), (0, 1)), constant_values=1).swapaxes(-1, -2)
     ).swapaxes(-1, -2)[..., :3]
     targets = {foot: ik.Points(local[k], recorded.corners[:, k]) for k, foot in enumerate(FEET)}
-    track = ik.track(robot, targets, start, base=recorded.base, settings=SETTINGS)
+    track = ik.track(robot, targets, start, base=recorded.base, settings=SOLVER)
     reached = corners(robot, poses(robot, track.q, FEET, base=recorded.base))
     assert np.abs(reached - recorded.corners).max() <= EXACT
 
@@ -303,6 +314,6 @@ def test_angle_change_and_ranges_are_those_of_the_motion(held):
     knees = [loss.walk.gait.q[:, JOINTS.index(f"{s}_knee_flexion")] for s in ("left", "right")]
     mine = [loss.motion.q[:, loss.motion.robot.column(f"{s}_knee_flexion")] for s in ("left", "right")]
     assert loss.angle_change["knee_flexion"] == pytest.approx(np.abs(np.array(mine) - knees).max())
-    low, high, at_limit = loss.ranges["left_knee_flexion"]
-    assert (low, high) == (mine[0].min(), mine[0].max())
-    assert at_limit == (mine[0] < 1e-9).sum()
+    knee = loss.ranges["left_knee_flexion"]
+    assert (knee.lowest, knee.highest) == (mine[0].min(), mine[0].max())
+    assert knee.samples_at_limit == (mine[0] < 1e-9).sum()

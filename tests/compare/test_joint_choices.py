@@ -8,7 +8,7 @@ import pytest
 
 from exo_pin.anatomy import MOVEMENTS
 from exo_pin.cli import main
-from exo_pin.compare import compare, worth
+from exo_pin.compare import compare, compare_joints
 from exo_pin.devices import subset
 from exo_pin.gait import normative_gait
 from exo_pin.report.draw.pareto import pareto_svg
@@ -19,7 +19,7 @@ SEARCHED = 1e-9  # metres: ten times what the solver is asked for
 
 @pytest.fixture(scope="module")
 def study():
-    return worth(GAIT)
+    return compare_joints(GAIT)
 
 
 def test_every_choice_is_there_once(study):

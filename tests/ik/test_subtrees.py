@@ -8,7 +8,7 @@ import pytest
 from exo_pin import ik
 from exo_pin.anatomy import FEET
 from exo_pin.compare import Conditions, best, robot_for, walk
-from exo_pin.compare.best_motion import corners
+from exo_pin.compare.recorded_walk import corners
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
 from exo_pin.ik.least_squares.cost import aims, pull

@@ -7,7 +7,8 @@ import pytest
 
 from exo_pin.anatomy import FEET, Body
 from exo_pin.compare import Conditions, best, projected, robot_for, walk
-from exo_pin.compare.best_motion import corners, pace, sole_targets
+from exo_pin.compare.best_motion import velocity_step_limits
+from exo_pin.compare.recorded_walk import corners, sole_targets
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
 from exo_pin.ik.least_squares.velocity_limited import paced
@@ -42,7 +43,7 @@ def _speeds(q):
 @pytest.mark.parametrize("device", TIGHT)
 def test_the_best_motion_keeps_the_device_s_speeds_and_ranges(device):
     recorded, robot, motion, plain = _case(device, 100)
-    assert (_speeds(motion.q) <= SPARED * pace(recorded.gait, robot)).all()
+    assert (_speeds(motion.q) <= SPARED * velocity_step_limits(recorded.gait, robot)).all()
     robot.check_limits(motion.q)
     assert ((motion.corners - recorded.corners) ** 2).sum() < ((plain.corners - recorded.corners) ** 2).sum()
 
@@ -52,7 +53,7 @@ def test_a_motion_without_speed_limits_jumps_and_loses_hardly_less(device, monke
     recorded, robot, motion, _ = _case(device, 100)
     monkeypatch.setattr("exo_pin.compare.best_motion.paced", lambda robot, targets, q, pace, base: q)
     free = best(recorded, robot, Conditions("device"))
-    assert (_speeds(free.q) > 1.5 * pace(recorded.gait, robot)).any()
+    assert (_speeds(free.q) > 1.5 * velocity_step_limits(recorded.gait, robot)).any()
     slow, quick = (((m.corners - recorded.corners) ** 2).sum(axis=-1).mean() ** 0.5 for m in (motion, free))
     assert quick <= slow < quick + 0.0005  # metres
 
@@ -60,13 +61,13 @@ def test_a_motion_without_speed_limits_jumps_and_loses_hardly_less(device, monke
 def test_a_motion_that_keeps_its_pace_is_returned_as_it_is():
     recorded, robot, motion, _ = _case("h2", 100)
     targets = sole_targets(robot, recorded.corners)
-    again = paced(robot, targets, motion.q, pace(recorded.gait, robot), base=recorded.base)
+    again = paced(robot, targets, motion.q, velocity_step_limits(recorded.gait, robot), base=recorded.base)
     assert np.array_equal(again, motion.q)
 
 
 def test_a_cycle_may_be_cut_open_anywhere():
     recorded, robot, motion, plain = _case("lokomat", 60)
-    base, steps = _stand(robot, motion), 0.5 * pace(recorded.gait, robot)
+    base, steps = _stand(robot, motion), 0.5 * velocity_step_limits(recorded.gait, robot)
     whole = paced(robot, sole_targets(robot, recorded.corners), plain.q, steps, base=base)
     rolled = [np.roll(x, 17, axis=0) for x in (recorded.corners, plain.q, base)]
     again = paced(robot, sole_targets(robot, rolled[0]), rolled[1], steps, base=rolled[2])
@@ -80,7 +81,7 @@ def test_a_cycle_may_be_cut_open_anywhere():
 def test_an_open_motion_does_not_return_to_its_start():
     recorded, robot, motion, _ = _case("lokomat", 45)
     base, targets = _stand(robot, motion), sole_targets(robot, recorded.corners)
-    steps = 0.3 * pace(recorded.gait, robot)
+    steps = 0.3 * velocity_step_limits(recorded.gait, robot)
     part, rows = {f: _first(t, 20) for f, t in targets.items()}, slice(0, 20)
     q = paced(robot, part, motion.q[rows], steps[:19], base=base[rows])
     assert (np.abs(np.diff(q, axis=0)) <= SPARED * steps[:19]).all()
@@ -96,7 +97,7 @@ def test_another_optimiser_finds_no_better_motion():
 
     recorded, robot, motion, _ = _case("lokomat", 6)
     base, targets = _stand(robot, motion), sole_targets(robot, recorded.corners)
-    steps = 0.4 * pace(recorded.gait, robot)
+    steps = 0.4 * velocity_step_limits(recorded.gait, robot)
     found = paced(robot, targets, motion.q, steps, base=base)
     assert (_speeds(motion.q) > steps).any()
     assert (_speeds(found) <= SPARED * steps).all()
@@ -118,7 +119,7 @@ def test_another_optimiser_finds_no_better_motion():
 @pytest.mark.parametrize("device", ["planar7", "lopes8", "lokomat"])
 def test_redundant_and_hurried_devices_keep_a_third_of_their_pace(device):
     recorded, robot, motion, _ = _case(device, 60)
-    steps = 0.3 * pace(recorded.gait, robot)
+    steps = 0.3 * velocity_step_limits(recorded.gait, robot)
     assert (_speeds(motion.q) > steps).any()
     q = paced(robot, sole_targets(robot, recorded.corners), motion.q, steps, base=_stand(robot, motion))
     assert (_speeds(q) <= HURRIED * steps).all()

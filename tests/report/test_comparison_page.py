@@ -11,7 +11,7 @@ import pytest
 from exo_pin import report
 from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.cli import main
-from exo_pin.compare import Conditions, compare, comparison_table, worth
+from exo_pin.compare import Conditions, compare, compare_joints, comparison_table
 from exo_pin.devices import DEVICES, Device, both
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.report.document import blocks
@@ -30,7 +30,7 @@ def compared():
 
 @pytest.fixture(scope="module")
 def document(compared):
-    found = worth(GAIT.resampled(17))
+    found = compare_joints(GAIT.resampled(17))
     return report.comparison(
         compared, name=EVIL, speeds={EVIL: compared, "fast": compared}, worth=found, choices={EVIL: EVIL}
     )

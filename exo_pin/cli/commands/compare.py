@@ -1,4 +1,4 @@
-"""`exo-pin compare`: one walk on many devices, and what each of them loses."""
+"""`exo-pin compare`: one walk on many devices, and the loss of each."""
 
 from __future__ import annotations
 
@@ -29,8 +29,7 @@ For every device: the best motion towards the recorded feet (least squares over 
 within the joints' limits and speeds), and the plain copy of its joints. docs/devices.md explains the
 columns."""
 
-_SAMPLES = 500
-"""Of a recording are enough to see which joints are worth their motor."""
+_SAMPLES = 500  # of a recording are enough to compare choices of joints
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -133,8 +132,8 @@ def _html(comparison: Comparison, args: argparse.Namespace) -> str:
 
 
 def _more(comparison: Comparison, name: str) -> dict[str, Any]:
-    """The same devices at the five speeds, and the choices of joints."""
-    from exo_pin.compare import compare, worth
+    """The comparison at the five speeds, and the choices of joints, for the page."""
+    from exo_pin.compare import compare, compare_joints
 
     body, gait = comparison.walk.robot.body, comparison.walk.gait
     assert body is not None  # compare made it
@@ -146,7 +145,7 @@ def _more(comparison: Comparison, name: str) -> dict[str, Any]:
             comparison if speed == name else compare(walk, devices, body, conditions=comparison.conditions)
         )
     with show.busy("choices of joints"):
-        found = worth(gait.resampled(_SAMPLES) if len(gait) > _SAMPLES else gait, body)
+        found = compare_joints(gait.resampled(_SAMPLES) if len(gait) > _SAMPLES else gait, body)
     return {"speeds": speeds, "worth": found}
 
 

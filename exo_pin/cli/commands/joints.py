@@ -1,4 +1,4 @@
-"""`exo-pin joints`: which joints of a leg are worth their motor."""
+"""`exo-pin joints`: the loss of a walk for every choice of driven joints."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
 
 if TYPE_CHECKING:
-    from exo_pin.compare import Worth
+    from exo_pin.compare import JointChoices
 
 _EXAMPLES = """examples:
   exo-pin joints                     the normal walk
   exo-pin joints walk.mot -o pareto.svg     the figure; also .md, .csv (all 64 choices) and .json
 
-Every choice of the six movements of a leg is tried, the same on both legs: what the soles then miss when the
-device does its best and the pelvis moves as recorded."""
+Every choice of the six movements of a leg is tried, the same on both legs: the soles' error under the
+best motion of such a device, the pelvis moving as recorded."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,59 +34,64 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Try all choices and print."""
-    from exo_pin.compare import comparison_table, worth
+    from exo_pin.compare import compare_joints, comparison_table
 
     if args.output is not None and Path(args.output).suffix.lower() not in _WRITERS:
         raise DescriptionError(f"{args.output}: {', '.join(_WRITERS)} are accepted")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
-    study = worth(gait, body)
+    found = compare_joints(gait, body)
     if args.json:
-        show.as_json(study.facts())
+        show.as_json(found.facts())
     else:
         name = Path(args.gait).name
         show.table(
             f"Best choice for each number of motors: {name}",
             comparison_table.FRONT,
-            comparison_table.front_rows(study),
+            comparison_table.front_rows(found),
         )
         show.table(
             "One movement locked, or added after the others",
             comparison_table.SINGLE,
-            comparison_table.single_rows(study),
+            comparison_table.single_rows(found),
         )
     if args.output:
-        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](study))
+        write_text(args.output, _WRITERS[Path(args.output).suffix.lower()](found))
     return 0
 
 
-def _svg(study: Worth) -> str:
+def _svg(found: JointChoices) -> str:
     from exo_pin.report.draw.pareto import pareto_svg
 
-    return pareto_svg(study)
+    return pareto_svg(found)
 
 
-def _markdown(study: Worth) -> str:
+def _markdown(found: JointChoices) -> str:
     from exo_pin.compare import comparison_table
 
-    front = comparison_table.markdown(comparison_table.FRONT, comparison_table.front_rows(study))
+    front = comparison_table.markdown(comparison_table.FRONT, comparison_table.front_rows(found))
     return (
-        front + "\n" + comparison_table.markdown(comparison_table.SINGLE, comparison_table.single_rows(study))
+        front + "\n" + comparison_table.markdown(comparison_table.SINGLE, comparison_table.single_rows(found))
     )
 
 
-def _csv(study: Worth) -> str:
+def _csv(found: JointChoices) -> str:
     from exo_pin.compare import comparison_table
 
     rows = [
-        ["+".join(x["movements"]) or "none", str(x["motors"]), f"{x['sole_rms_mm']:.4f}"]
-        for x in study.facts()["all"]
+        ["+".join(choice.movements) or "none", str(choice.motors), f"{1e3 * choice.loss:.4f}"]
+        for choice in found.choices
     ]
     return comparison_table.csv(("driven", "motors", "sole rms mm"), rows)
 
 
-def _json(study: Worth) -> str:
-    return json.dumps(study.facts(), indent=2) + "\n"
+def _json(found: JointChoices) -> str:
+    return json.dumps(found.facts(), indent=2) + "\n"
 
 
-_WRITERS: dict[str, Callable[[Worth], str]] = {".svg": _svg, ".md": _markdown, ".csv": _csv, ".json": _json}
+_WRITERS: dict[str, Callable[[JointChoices], str]] = {
+    ".svg": _svg,
+    ".md": _markdown,
+    ".csv": _csv,
+    ".json": _json,
+}

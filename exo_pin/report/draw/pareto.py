@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from html import escape
 
-from exo_pin.compare.joint_choices import Worth
+from exo_pin.compare.joint_choices import JointChoices
 
 _WIDTH, _HEIGHT, _LEFT, _RIGHT, _TOP, _BOTTOM = 760, 430, 70, 150, 46, 54
 _FLOOR = 0.5
@@ -24,16 +24,16 @@ _SHORT = {
 }
 
 
-def pareto_svg(worth: Worth, *, name: str = "") -> str:
+def pareto_svg(choices: JointChoices, *, name: str = "") -> str:
     """All 64 choices as dots, the best for each number of motors joined and named by what it adds.
 
     Args:
-        worth: The choices.
+        choices: The losses of all choices.
         name: What the walk is called; the beginning of its source if left out.
     """
-    top = max(1e3 * loss for loss in worth.losses.values())
-    parts = [*_axes(top), *_dots(worth, top), *_front(worth, top)]
-    called = name or worth.walk.gait.source or "gait"
+    top = max(1e3 * loss for loss in choices.losses.values())
+    parts = [*_axes(top), *_dots(choices, top), *_front(choices, top)]
+    called = name or choices.walk.gait.source or "gait"
     called = called if len(called) <= _LETTERS else f"{called[:_LETTERS]} …"
     title = escape(f"Which joints are worth their motor: {called}")
     head = (
@@ -75,15 +75,15 @@ def _axes(top: float) -> list[str]:
     return parts
 
 
-def _dots(worth: Worth, top: float) -> list[str]:
+def _dots(choices: JointChoices, top: float) -> list[str]:
     return [
         f'<circle cx="{_x(2 * len(chosen))}" cy="{_y(1e3 * loss, top)}" r="3.5" fill="#9ab" opacity="0.7"/>'
-        for chosen, loss in worth.losses.items()
+        for chosen, loss in choices.losses.items()
     ]
 
 
-def _front(worth: Worth, top: float) -> list[str]:
-    front = worth.pareto
+def _front(choices: JointChoices, top: float) -> list[str]:
+    front = choices.pareto
     points = [(_x(motors), _y(1e3 * loss, top)) for motors, _, loss in front]
     line = " ".join(f"{x},{y}" for x, y in points)
     parts = [f'<polyline points="{line}" fill="none" stroke="#c33" stroke-width="2"/>']

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from exo_pin.compare import Comparison, Worth, comparison_table
+from exo_pin.compare import Comparison, JointChoices, comparison_table
 from exo_pin.report.document.blocks import Document, Drawing, Figure, Section, Table, Tiles, Words
 from exo_pin.report.draw import device_drawings as drawn
 from exo_pin.report.draw.pareto import pareto_svg
@@ -28,7 +28,7 @@ def comparison(
     *,
     name: str = "",
     speeds: Mapping[str, Comparison] | None = None,
-    worth: Worth | None = None,
+    worth: JointChoices | None = None,
     choices: Mapping[str, str] | None = None,
     when: str = "",
 ) -> Document:
@@ -86,7 +86,7 @@ def _sticks(compared: Comparison) -> Section:
     return Section("How they walk", (Figure(drawings, caption, columns=2),))
 
 
-def _worth(worth: Worth) -> Section:
+def _worth(worth: JointChoices) -> Section:
     picture = Drawing("pareto", "Sole error against number of motors", pareto_svg(worth))
     caption = (
         "All 64 choices of the six movements of a leg, the same on both legs, the pelvis as recorded, at "
