@@ -9,7 +9,7 @@ from exo_pin.compare.comparison import Comparison
 from exo_pin.compare.joint_choices import JointChoices
 from exo_pin.compare.loss import Loss
 
-COLUMNS = (
+LOSS_COLUMNS = (
     "device",
     "motors",
     "sole rms mm",
@@ -24,8 +24,8 @@ COLUMNS = (
 )
 """Headings. Sole: of the soles' corners; foot: of the foot frames; copy: the sole in the plain copy."""
 
-FRONT = ("motors", "sole rms mm", "driven, each leg")
-SINGLE = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
+PARETO_COLUMNS = ("motors", "sole rms mm", "driven, each leg")
+MOVEMENT_COLUMNS = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
 
 
 def rows(comparison: Comparison) -> list[list[str]]:
@@ -42,7 +42,7 @@ def phase_rows(comparison: Comparison) -> list[list[str]]:
 
 
 def front_rows(choices: JointChoices) -> list[list[str]]:
-    """The best choice of joints for each number of motors, under the headings `FRONT`."""
+    """The best choice of joints for each number of motors, as `PARETO_COLUMNS`."""
     return [
         [str(motors), _fixed(1e3 * loss), ", ".join(movements) or "none"]
         for motors, movements, loss in choices.pareto
@@ -50,7 +50,7 @@ def front_rows(choices: JointChoices) -> list[list[str]]:
 
 
 def single_rows(choices: JointChoices) -> list[list[str]]:
-    """One movement locked, or added to the others, under the headings `SINGLE`; the largest loss first."""
+    """A row per movement, locked alone or added to others, as `MOVEMENT_COLUMNS`; the largest loss first."""
     places = {movement: (k, left) for k, (movement, left) in enumerate(choices.add_one_in, 1)}
     return [
         [m, _fixed(1e3 * loss), f"{places[m][0]}.", _fixed(1e3 * places[m][1])]

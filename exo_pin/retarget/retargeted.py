@@ -20,7 +20,7 @@ from exo_pin.retarget.biped import Biped
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
 
-REACHED = 1e-5
+_REACHED = 1e-5
 """A foot further from its goal than this is missed [m, rad]."""
 
 
@@ -140,7 +140,7 @@ class Retargeted:
         """Feet (n, 2) that were not reached; of legs with fewer than six joints only the place counts."""
         any_pose = [leg.reaches_any_pose for leg in self.biped.legs]
         position, rotation = self.errors
-        return np.asarray((position > REACHED) | ((rotation > REACHED) & any_pose))
+        return np.asarray((position > _REACHED) | ((rotation > _REACHED) & any_pose))
 
     @property
     def samples_missed(self) -> int:

@@ -53,14 +53,14 @@ def _both(limits: Mapping[str, Pair], mirrored: Mapping[str, Pair]) -> Mapping[s
     return MappingProxyType(found)
 
 
-TALOS = Target(
+_TALOS = Target(
     "talos",
     "talos_data/robots/talos_reduced.urdf",
     feet=("leg_left_6_link", "leg_right_6_link"),
     title="TALOS (PAL Robotics)",
     licence="PAL Robotics, Apache-2.0",
 )
-ROMEO = Target(
+_ROMEO = Target(
     "romeo",
     "romeo_description/urdf/romeo_small.urdf",
     feet=("l_ankle", "r_ankle"),
@@ -70,7 +70,7 @@ ROMEO = Target(
     title="Romeo (Aldebaran)",
     licence="LAAS-CNRS, BSD",
 )
-ICUB = Target(
+_ICUB = Target(
     "icub",
     "icub_description/robots/icub_reduced.urdf",
     feet=("l_ankle_2", "r_ankle_2"),
@@ -78,7 +78,7 @@ ICUB = Target(
     title="iCub (IIT)",
     licence="robotology's icub-models, CC-BY-SA-4.0",
 )
-G1 = Target(
+_G1 = Target(
     "g1",
     "g1_description/urdf/g1_29dof_rev_1_0.urdf",
     feet=("left_ankle_roll_link", "right_ankle_roll_link"),
@@ -87,7 +87,7 @@ G1 = Target(
     remarks="The hip's roll and yaw axes are inclined by 10 degrees and its three axes do not meet: the "
     "paths are scaled to what the legs reach in every direction.",
 )
-SIMPLE_HUMANOID = Target(
+_SIMPLE_HUMANOID = Target(
     "simple_humanoid",
     "simple_humanoid_description/urdf/simple_humanoid.urdf",
     limits=_both(
@@ -101,7 +101,7 @@ SIMPLE_HUMANOID = Target(
     "where TALOS has them, and +-30 degrees for hip and ankle roll. The file has no "
     "visuals: capsules are drawn.",
 )
-HUMAN = Target(
+_HUMAN = Target(
     "human",
     "human_description/robots/human.urdf",
     feet=("left_foot", "right_foot"),
@@ -111,7 +111,7 @@ HUMAN = Target(
     licence="Gepetto team, BSD-2-Clause",
     remarks="A person with ISB joints; its root link has y up, and its garish colours are not shown.",
 )
-BOLT = Target(
+_BOLT = Target(
     "bolt",
     "bolt_description/robots/bolt.urdf",
     feet=("FL_FOOT", "FR_FOOT"),
@@ -122,7 +122,7 @@ BOLT = Target(
 )
 
 TARGETS: Mapping[str, Target] = MappingProxyType(
-    {t.name: t for t in (TALOS, ROMEO, ICUB, G1, SIMPLE_HUMANOID, HUMAN, BOLT)}
+    {t.name: t for t in (_TALOS, _ROMEO, _ICUB, _G1, _SIMPLE_HUMANOID, _HUMAN, _BOLT)}
 )
 """Every target by name."""
 

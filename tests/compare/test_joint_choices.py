@@ -64,7 +64,7 @@ def test_the_figure_is_svg_with_every_choice_and_the_front(study):
 
 
 def test_the_command_prints_json_and_writes_the_figure(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("exo_pin.compare.joint_choices.SAMPLES", 3)
+    monkeypatch.setattr("exo_pin.compare.joint_choices._SAMPLES", 3)
     assert main(["joints", "--json", "-o", str(tmp_path / "p.svg")]) == 0
     assert len(json.loads(capsys.readouterr().out)["all"]) == 64
     assert (tmp_path / "p.svg").read_text().startswith("<svg")

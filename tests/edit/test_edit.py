@@ -194,9 +194,7 @@ def test_clearance_is_scaled_in_mid_swing_while_standing_feet_stay(robot, walk, 
 @pytest.mark.parametrize(
     ("stride", "clearance"), [(0.7, 1.0), (1.1, 1.0), (1.2, 1.0), (1.0, 0.5), (1.0, 1.5)]
 )
-def test_everyday_adjustments_keep_accelerations_low_and_standing_feet_down(
-    robot, speed, stride, clearance
-):
+def test_everyday_adjustments_keep_accelerations_low_and_standing_feet_down(robot, speed, stride, clearance):
     walk = normative_gait(speed)
     changed, track = edit.strided(robot, walk, stride=stride, clearance=clearance)
     assert np.abs(changed.ddq).max() < NEARLY * ACCELERATION_LIMIT

@@ -86,7 +86,7 @@ def _print(comparison: Comparison, name: str) -> None:
 
     print(comparison_table.conditions(comparison))
     show.table(
-        f"What each device loses of {name}", comparison_table.COLUMNS, comparison_table.rows(comparison)
+        f"What each device loses of {name}", comparison_table.LOSS_COLUMNS, comparison_table.rows(comparison)
     )
     if comparison.walk.gait.events:
         columns = ("sole rms mm", *PHASES)
@@ -103,7 +103,7 @@ def _markdown(comparison: Comparison, _: argparse.Namespace) -> str:
 
     parts = [
         comparison_table.conditions(comparison) + "\n",
-        comparison_table.markdown(comparison_table.COLUMNS, comparison_table.rows(comparison)),
+        comparison_table.markdown(comparison_table.LOSS_COLUMNS, comparison_table.rows(comparison)),
         comparison_table.markdown(("sole rms mm", *PHASES), comparison_table.phase_rows(comparison)),
     ]
     return "\n".join(parts)
@@ -112,7 +112,7 @@ def _markdown(comparison: Comparison, _: argparse.Namespace) -> str:
 def _csv(comparison: Comparison, _: argparse.Namespace) -> str:
     from exo_pin.compare import comparison_table
 
-    return comparison_table.csv(comparison_table.COLUMNS, comparison_table.rows(comparison))
+    return comparison_table.csv(comparison_table.LOSS_COLUMNS, comparison_table.rows(comparison))
 
 
 def _json(comparison: Comparison, _: argparse.Namespace) -> str:

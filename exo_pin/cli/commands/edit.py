@@ -160,7 +160,7 @@ def _blend(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Ga
 
     if args.blend is None:
         return gait
-    name, share = _number(args.blend, "--blend")
+    name, share = _name_and_number(args.blend, "--blend")
     return edit.blended(gait, options.load(name, body), share=share)
 
 
@@ -170,7 +170,8 @@ def _transition(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) 
     if args.transition is None:
         return gait
     in_time = args.transition.endswith("s") and args.transition[-2:-1].isdigit()
-    name, length = _number(args.transition.removesuffix("s") if in_time else args.transition, "--transition")
+    text = args.transition.removesuffix("s") if in_time else args.transition
+    name, length = _name_and_number(text, "--transition")
     other = options.load(name, body)
     around = {"before": args.lead, "after": args.lead}
     if in_time:
@@ -181,7 +182,7 @@ def _transition(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) 
 def _amplitude(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
-    factors = dict(_number(text, "--amplitude") for text in args.amplitude)
+    factors = dict(_name_and_number(text, "--amplitude") for text in args.amplitude)
     return edit.scaled(gait, factors) if factors else gait
 
 
@@ -222,7 +223,7 @@ _STEPS: dict[str, Step] = {
 """The adjustments in the order in which they are made."""
 
 
-def _number(text: str, option: str) -> tuple[str, float]:
+def _name_and_number(text: str, option: str) -> tuple[str, float]:
     name, value = options.assignment(text)
     if isinstance(value, bool) or not isinstance(value, float):
         raise DescriptionError(f"{option} {text!r}: expected a number after the =")

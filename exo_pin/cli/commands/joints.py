@@ -47,12 +47,12 @@ def run(args: argparse.Namespace) -> int:
         name = Path(args.gait).name
         show.table(
             f"Best choice for each number of motors: {name}",
-            comparison_table.FRONT,
+            comparison_table.PARETO_COLUMNS,
             comparison_table.front_rows(found),
         )
         show.table(
             "One movement locked, or added after the others",
-            comparison_table.SINGLE,
+            comparison_table.MOVEMENT_COLUMNS,
             comparison_table.single_rows(found),
         )
     if args.output:
@@ -69,9 +69,11 @@ def _svg(found: JointChoices) -> str:
 def _markdown(found: JointChoices) -> str:
     from exo_pin.compare import comparison_table
 
-    front = comparison_table.markdown(comparison_table.FRONT, comparison_table.front_rows(found))
+    front = comparison_table.markdown(comparison_table.PARETO_COLUMNS, comparison_table.front_rows(found))
     return (
-        front + "\n" + comparison_table.markdown(comparison_table.SINGLE, comparison_table.single_rows(found))
+        front
+        + "\n"
+        + comparison_table.markdown(comparison_table.MOVEMENT_COLUMNS, comparison_table.single_rows(found))
     )
 
 

@@ -72,7 +72,7 @@ def _summary(compared: Comparison) -> Section:
         "the least sum of squared distances of the sole corners, within the limits and speeds of its joints. "
         f"The pelvis {_PELVIS[compared.conditions.pelvis]}."
     )
-    ranked = Table(comparison_table.COLUMNS, comparison_table.rows(compared), "Least loss first")
+    ranked = Table(comparison_table.LOSS_COLUMNS, comparison_table.rows(compared), "Least loss first")
     bars = Figure((drawn.ranking(compared),), "Bar: the best motion. Stroke: the plain copy.", columns=1)
     return Section("Summary", (Tiles(tiles), Words(words), ranked, Words(_COLUMNS, "note"), bars))
 
@@ -97,12 +97,12 @@ def _worth(worth: JointChoices) -> Section:
         (
             Figure((picture,), caption, columns=1),
             Table(
-                comparison_table.FRONT,
+                comparison_table.PARETO_COLUMNS,
                 comparison_table.front_rows(worth),
                 "Best choice for each number of motors",
                 prose=True,
             ),
-            Table(comparison_table.SINGLE, comparison_table.single_rows(worth)),
+            Table(comparison_table.MOVEMENT_COLUMNS, comparison_table.single_rows(worth)),
         ),
     )
 
