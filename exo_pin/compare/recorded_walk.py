@@ -70,7 +70,7 @@ def walk(gait: Gait, body: Body | None = None) -> Walk:
     """The gait on the full exoskeleton for a body; `Body.from_stature()` if left out."""
     robot = load_robot(body)
     q = robot.from_gait(gait)
-    base = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else np.array(gait.base)
+    base = robot.pelvis_poses(gait)
     feet = poses(robot, q, FEET, base=base)
     com = center_of_mass(robot, q, base=base).position
     return Walk(gait, robot, base, feet, corners(robot, feet), com)

@@ -71,7 +71,7 @@ def strided(
             raise GaitError(f"{name} times {factor}: 0 to {_LARGEST_FACTOR:g} is accepted")
     if robot.base != "fixed":
         raise GaitError("strided needs a robot with a fixed base; the gait carries the pelvis's motion")
-    old = np.broadcast_to(robot.placement, (len(gait), 4, 4)) if gait.base is None else gait.base
+    old = robot.pelvis_poses(gait)
     q = robot.from_gait(gait)
     feet = poses(robot, q, FEET, base=old)
     drift = (stride - 1) * (_drift(old, gait.time) if not gait.periodic else np.zeros((len(gait), 3)))

@@ -188,8 +188,8 @@ def _copied(gait: Gait, biped: Biped, R: Array) -> Array:
 
 def _base(gait: Gait, walker: Robot, biped: Biped, scale: tuple[float, float], lean: float) -> Array:
     """T_world_root (n, 4, 4): the midpoint of the hips follows the pelvis's scaled path and its rotation."""
-    pelvis = np.tile(walker.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
-    T = np.array(pelvis, dtype=float)
+    pelvis = walker.pelvis_poses(gait)
+    T = pelvis.copy()
     T[:, :3, :3] = pelvis[:, :3, :3] @ _tilt(-lean)[:3, :3] @ biped.rotation.T
     hips = biped.rotation @ (biped.legs[0].hip + biped.legs[1].hip) / 2
     T[:, :3, 3] = np.mean(scale) * pelvis[:, :3, 3] - T[:, :3, :3] @ hips

@@ -204,6 +204,10 @@ class Robot:
         """The `base=` of a gait on this robot: the gait's own; None for a floating base, which q holds."""
         return gait.base if self.base == "fixed" else None
 
+    def pelvis_poses(self, gait: Gait) -> Array:
+        """T_world_pelvis (n, 4, 4) of a gait: its base, or `placement` where the gait has none."""
+        return np.tile(self.placement, (len(gait), 1, 1)) if gait.base is None else np.array(gait.base)
+
     def from_gait(self, gait: Gait) -> Array:
         """The gait in this robot's own coordinates (n, nq): its joints, its hip order, its base.
 

@@ -79,7 +79,7 @@ def test_step_width_and_clearance_add_up(document):
         assert clearance + clearance_lost == pytest.approx(float(recorded[3]), abs=0.151)
 
 
-def test_ranges_are_told_for_what_a_device_drives_and_limits_are_marked(document, compared):
+def test_ranges_are_shown_for_driven_joints_and_limits_are_marked(document, compared):
     ranges, slides, *_ = tables(document, "Joints")
     used = {row[0]: dict(zip(MOVEMENTS, row[1:7], strict=True)) for row in ranges.rows}
     assert used["hk4"]["hip_adduction"] == "locked"
@@ -87,7 +87,7 @@ def test_ranges_are_told_for_what_a_device_drives_and_limits_are_marked(document
         for movement, cell in used[loss.device.name].items():
             mine = [found for joint, found in loss.ranges.items() if joint.endswith(movement)]
             assert (cell == "locked") == (not mine)
-            assert cell.endswith("*") == any(at_limit for *_, at_limit in mine)
+            assert cell.endswith("*") == any(demand.samples_at_limit for demand in mine)
     assert {row[0] for row in slides.rows} == {"lopes8", "lokomat"}
 
 

@@ -39,7 +39,7 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
     n = len(gait.time)
-    base = np.broadcast_to(robot.placement, (n, 4, 4)) if gait.base is None else gait.base
+    base = robot.pelvis_poses(gait)
     q = robot.from_gait(gait)
     parts = [poses(robot, q[part], FEET, base=base[part]) for part in show.blocks(n, "forward kinematics")]
     feet = np.concatenate(parts)
