@@ -22,7 +22,7 @@ from exo_pin.arrays import Array
 from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, corners, sole_targets
 from exo_pin.devices import Device
 from exo_pin.gait import Gait
-from exo_pin.ik.least_squares.velocity_limited import paced
+from exo_pin.ik.least_squares.velocity_limited import velocity_limited
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot, load_robot
@@ -109,7 +109,7 @@ def best(
         return q, (missed**2).sum(axis=(1, 2, 3))
 
     q = _improved_by_neighbours(solved, start)
-    q = paced(robot, targets, q, velocity_step_limits(recorded.gait, robot), base=base)
+    q = velocity_limited(robot, targets, q, velocity_step_limits(recorded.gait, robot), base=base)
     return _motion(recorded, robot, q, base, required)
 
 

@@ -17,7 +17,7 @@ from exo_pin.compare.best_motion import LEAST_DECREASE, MOST_SWEEPS, plain_copy
 from exo_pin.compare.recorded_walk import Walk, corners, sole_targets, walk
 from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
-from exo_pin.ik.least_squares.subtree_kernel import settle
+from exo_pin.ik.least_squares.dls import settle
 from exo_pin.kinematics import poses
 
 _SAMPLES = 25  # of a periodic gait are compared

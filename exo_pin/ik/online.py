@@ -14,7 +14,8 @@ import pinocchio as pin
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
-from exo_pin.ik.least_squares.single_sample import descend
+from exo_pin.ik.least_squares.driver import minimise
+from exo_pin.ik.least_squares.single_sample import SampleKernel
 from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal, pose_array
@@ -138,14 +139,15 @@ class Online:
             p, R = T[None, None, :3, 3], T[None, :3, :3]
             goal = Goal(own.frame, np.zeros((1, 3)), p, R, np.ones((1, 1)), 1.0)
             near = approximate_formula(own)
+            kernel = SampleKernel(subtree, self._subtree_data[own.frame], [goal], 0)
             seeds = [self.q[own.columns]]
             if near is not None:
                 seeds.append(np.array(near(target)))
             for seed in seeds:
-                answer = descend(subtree, self._subtree_data[own.frame], seed, [goal], 0, self._settings)
-                if answer.converged:
+                answer = minimise(kernel, seed[:, None], self._settings)
+                if answer.reached(self._settings.tolerance)[0]:
                     break
-            self._trial[LEG_JOINTS * j : LEG_JOINTS * (j + 1)] = answer.q
+            self._trial[LEG_JOINTS * j : LEG_JOINTS * (j + 1)] = answer.q[:, 0]
         return self._reached(targets)
 
 

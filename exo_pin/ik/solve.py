@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.errors import ConvergenceError, DescriptionError, UnknownNameError
-from exo_pin.ik.least_squares.sequential import follow
-from exo_pin.ik.least_squares.subtree_kernel import together
+from exo_pin.ik.least_squares import dls
 from exo_pin.ik.leg import batch
 from exo_pin.ik.leg.geometry import approximate_geometry, exact_geometry
 from exo_pin.ik.problem import Problem, SolutionBuffer, problem
@@ -85,20 +84,20 @@ def solve(
 
 def _auto(task: Problem, settings: Auto) -> Track:
     """Closed form, check, and damped least squares for the rest, each subtree by the best it allows."""
-    buffer, dls = SolutionBuffer.blank(task), replace(settings.dls, tolerance=settings.tolerance)
+    buffer, iterative = SolutionBuffer.blank(task), replace(settings.dls, tolerance=settings.tolerance)
     for subtree in task.subtrees:
         f, leg = task.places_of(subtree)[0], task.leg_of(subtree)
         exact = None if leg is None else exact_geometry(leg)
         near = None if leg is None else exact or approximate_geometry(leg)
         if leg is None or near is None:
-            _iterate(task, subtree, dls, buffer)
+            _iterate(task, subtree, iterative, buffer)
             continue
         if exact:
             batch.write_closed_form(task, f, leg, exact, buffer)
-            batch.refine(task, f, leg, buffer)
+            dls.refine_leg(task, f, leg, buffer)
         else:
             batch.write_approximate_seeds(task, f, leg, near, buffer)
-        batch.write_least_squares(task, f, leg, dls, buffer)
+        dls.solve_leg(task, f, leg, iterative, buffer)
     return buffer.track(task, settings.tolerance)
 
 
@@ -138,12 +137,12 @@ def _iterate(task: Problem, subtree: Subtree, settings: Dls, buffer: SolutionBuf
     arrays = subtree.arrays if apart and task.n > 1 and not settings.damping else None
     leg = task.leg_of(subtree)
     if arrays is None:
-        follow(task, subtree, settings, buffer)
+        dls.solve_in_order(task, subtree, settings, buffer)
     elif leg is None:
-        together(task, subtree, arrays, settings, buffer)
+        dls.solve_together(task, subtree, settings, buffer)
     else:
         seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, leg.columns].T
-        batch.write_least_squares(task, task.places_of(subtree)[0], leg, settings, buffer, seed=seed)
+        dls.solve_leg(task, task.places_of(subtree)[0], leg, settings, buffer, seed=seed)
 
 
 SOLVERS: dict[type, Solver] = {Auto: _auto, ClosedForm: _closed_form, Dls: _least_squares}

@@ -1,51 +1,186 @@
-"""The step of a damped least-squares iteration inside a box: a small QP by an active set."""
+"""The step of an iteration: a small convex quadratic program (QP) within joint limits.
+
+Minimise x.A.x / 2 - b.x over lower <= x <= upper, where A is the damped Hessian of half the cost, b the
+negative gradient and the box what the joint limits leave. Arrays may carry many samples on a last axis:
+A (J, J, m) and b (J, m), or (J, J) and (J,) for one.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 
-_ROUNDS = 30  # each round fixes or frees joints; a leg of six needs two or three
+_ROUNDING = 1e-12  # of a pivot against its diagonal
+_ROUNDS = 30  # rounds of the active set; a leg of six needs two or three, the rest is cut to the box
 
 
-def box_step(A: Array, g: Array, lower: Array, upper: Array) -> Array:
-    """The step x that minimises x.A.x / 2 - g.x subject to lower <= x <= upper.
+def normal_equations(J: Array, e: Array) -> tuple[Array, Array]:
+    """J^T J (nv, nv, m) and J^T e (nv, m) of Jacobians (k, nv, m) and residuals (k, m)."""
+    size = J.shape[1]
+    A = np.empty((size, size, J.shape[2]))
+    for i in range(size):
+        for j in range(i + 1):
+            A[i, j] = A[j, i] = _dots(J[:, i], J[:, j])
+    return A, np.stack([_dots(J[:, i], e) for i in range(size)])
 
-    A is symmetric positive definite (m, m) and the box contains zero. A joint that would leave the box is
-    held on its bound and the others are solved again; a held joint that the remaining force pulls inwards is
-    set free (active set, Nocedal and Wright, Numerical Optimization, section 16.7).
+
+def convex_hessian(gauss_newton: Array, second_order: Array, damping: Array | float, free: Mask) -> Array:
+    """The damped Hessian over the free joints where it is positive definite, elsewhere Gauss-Newton's.
+
+    A joint that is pressed against its limit is left where it is (projected Newton, Bertsekas 1982): a
+    negative curvature there must not spoil the steps of the others.
+
+    Args:
+        gauss_newton: The positive semidefinite part of the Hessian (J, J, m) or (J, J).
+        second_order: The other part, of the same shape.
+        damping: Added to the diagonal (m,) or a number.
+        free: The joints that move (J, m) or (J,); the others get a row of the identity.
+    """
+    span = np.arange(len(free))
+    block = free[:, None] & free
+    plain = np.where(block, gauss_newton, 0.0)
+    plain[span, span] += np.where(free, damping, 1.0)
+    whole = plain + np.where(block, second_order, 0.0)
+    return np.where(definite(whole), whole, plain)
+
+
+def newton_step(
+    b: Array, gauss_newton: Array, second_order: Array, damping: Array | float, lower: Array, upper: Array
+) -> Array:
+    """The damped Newton step of many samples, or of one, within the box.
+
+    Args:
+        b: Negative gradients (J, m) or (J,).
+        gauss_newton: The positive semidefinite part of the Hessian (J, J, m) or (J, J).
+        second_order: The other part, of the same shape.
+        damping: Added to the diagonal (m,) or a number.
+        lower: Lower ends of the box, not above zero, of the shape of b.
+        upper: Upper ends of the box, not below zero.
+    """
+    free = free_joints(b, lower, upper)
+    A = convex_hessian(gauss_newton, second_order, damping, free)
+    return box_step(A, np.where(free, b, 0.0), lower, upper)
+
+
+def free_joints(b: Array, lower: Array, upper: Array) -> Mask:
+    """The joints that are not pressed against a limit: b, the negative gradient, points inwards there."""
+    return np.asarray(((lower < 0.0) | (b > 0.0)) & ((upper > 0.0) | (b < 0.0)))
+
+
+def definite(A: Array) -> Mask:
+    """Which of the symmetric matrices (k, k, m) are positive definite by more than rounding (m,)."""
+    if A.ndim == 2:
+        return np.asarray(_cholesky_exists(A))
+    size = len(A)
+    B, least = A.copy(), _ROUNDING * A[range(size), range(size)]
+    good = np.ones(A.shape[2:], dtype=bool)
+    with np.errstate(all="ignore"):  # what is not definite may run into anything
+        for j in range(size):
+            good &= B[j, j] > least[j]
+            ratio = B[j + 1 :, j] / B[j, j]
+            B[j + 1 :, j + 1 :] -= ratio[:, None] * B[j, j + 1 :]
+    return good
+
+
+def _cholesky_exists(A: Array) -> bool:
+    try:
+        np.linalg.cholesky(A)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+def box_step(A: Array, b: Array, lower: Array, upper: Array) -> Array:
+    """The step x that minimises x.A.x / 2 - b.x subject to lower <= x <= upper.
+
+    Only the samples whose free step leaves the box go through the active set.
+
+    Args:
+        A: Symmetric positive definite matrices (J, J, m) or (J, J).
+        b: Right-hand sides (J, m) or (J,).
+        lower: Lower ends of the box, not above zero, of the shape of b.
+        upper: Upper ends of the box, not below zero.
 
     Returns:
-        The step (m,), exactly within the box.
+        The steps, of the shape of b, exactly within the box.
     """
-    x: Array = np.linalg.solve(A, g).astype(float)
-    if ((x >= lower) & (x <= upper)).all():
+    x = _solution(A, b)
+    out = (x < lower) | (x > upper)
+    if not out.any():
         return x
-    held = np.zeros(len(g), dtype=bool)
-    x[:] = 0.0
-    for _ in range(_ROUNDS):
-        free = ~held
-        wish = x.copy()
-        if free.any():
-            rest = g[free] - A[np.ix_(free, held)] @ x[held]
-            wish[free] = np.linalg.solve(A[np.ix_(free, free)], rest)
-        share = _way(x, wish, lower, upper)
-        x = np.minimum(np.maximum(x + share * (wish - x), lower), upper)
-        if share < 1.0:
-            held |= free & (((x <= lower) & (wish < x)) | ((x >= upper) & (wish > x)))
-            continue
-        pull = g - A @ x
-        wrong = held & np.where(x >= upper, pull < 0.0, pull > 0.0) & (upper > lower)
-        if not wrong.any():
-            return x
-        held[np.argmax(np.where(wrong, np.abs(pull), -1.0))] = False
+    if b.ndim == 1:
+        return _active_set(A, b, lower, upper)
+    few = np.flatnonzero(out.any(axis=0))
+    x[:, few] = _active_set(A[:, :, few], b[:, few], lower[:, few], upper[:, few])
     return x
 
 
-def _way(x: Array, wish: Array, lower: Array, upper: Array) -> float:
-    """The share of the way from x to the wish that stays within the box, at most 1."""
-    d = wish - x
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(d > 0, (upper - x) / d, np.where(d < 0, (lower - x) / d, np.inf))
-    return float(min(1.0, room.min()))
+def _active_set(A: Array, b: Array, lower: Array, upper: Array) -> Array:
+    """The step by an active set (Nocedal and Wright, Numerical Optimization, section 16.5).
+
+    A joint that would leave the box is held on its bound and the others are solved again; of the held joints
+    whose gradient points inwards, the one with the largest is set free.
+    """
+    x, held = np.zeros_like(b), np.zeros(b.shape, dtype=bool)
+    joints = np.arange(len(b)).reshape(-1, *[1] * (b.ndim - 1))
+    busy = np.ones(b.shape[1:], dtype=bool)
+    for _ in range(_ROUNDS):
+        wish = np.where(held, x, _held_solution(A, b, x, held))
+        d = wish - x
+        with np.errstate(divide="ignore", invalid="ignore"):
+            room = np.where(d > 0, (upper - x) / d, np.where(d < 0, (lower - x) / d, np.inf))
+        share = np.minimum(room.min(axis=0), 1.0)
+        x = np.where(busy, np.minimum(np.maximum(x + share * d, lower), upper), x)
+        held |= ((x <= lower) & (wish < x)) | ((x >= upper) & (wish > x))
+        descent = b - _times(A, x)
+        wrong = held & np.where(x >= upper, descent < 0.0, descent > 0.0) & (upper > lower) & (share == 1.0)
+        busy = (share < 1.0) | wrong.any(axis=0)
+        if not busy.any():
+            break
+        worst = np.argmax(np.where(wrong, np.abs(descent), -1.0), axis=0)
+        held &= ~(wrong & (joints == worst))
+    return x
+
+
+def _held_solution(A: Array, b: Array, x: Array, held: Mask) -> Array:
+    """The minimiser over the free joints, the held ones where they are."""
+    free = ~held
+    rest = np.where(held, x, b - _times(A, np.where(held, x, 0.0)))
+    B = A * (free[:, None] & free)
+    span = np.arange(len(b))
+    B[span, span] += held
+    return _solution(B, rest)
+
+
+def _solution(A: Array, b: Array) -> Array:
+    """X of A x = b, A symmetric and positive definite: by LAPACK for one sample, which costs 10 us.
+
+    For many, L D L^T over all samples at once, without pivoting: damping makes every A positive definite.
+    """
+    if b.ndim == 1:
+        return np.asarray(np.linalg.solve(A, b))
+    size, A, x = len(b), A.copy(), b.copy()
+    for j in range(size - 1):
+        ratio = A[j + 1 :, j] / A[j, j]
+        for i in range(j + 1, size):
+            A[i, j + 1 : i + 1] -= ratio[i - j - 1] * A[j + 1 : i + 1, j]
+        x[j + 1 :] -= ratio * x[j]
+    for j in range(size - 1, -1, -1):
+        for i in range(j + 1, size):
+            x[j] -= A[i, j] * x[i]
+        x[j] /= A[j, j]
+    return x
+
+
+def _times(A: Array, x: Array) -> Array:
+    if x.ndim == 1:
+        return np.asarray(A @ x)
+    return np.stack([_dots(A[i], x) for i in range(len(x))])
+
+
+def _dots(a: Array, b: Array) -> Array:
+    total = a[0] * b[0]
+    for i in range(1, len(a)):
+        total += a[i] * b[i]
+    return np.asarray(total)

@@ -1,16 +1,18 @@
-"""What the targets of a subtree ask of its joints: cost, slope and curvature, for many samples at once.
+"""Cost, gradient and Hessian of the targets of a subtree, for many samples at once.
 
 Points on one rigid frame enter only through sums, however many they are: their weight W, centre c, and the
-moments B = sum w^2 d e^T and D = sum w^2 d d^T of arms d = x - c and errors e. With l_j the velocity of c
-and a_j the angular velocity that joint j causes, the cost f = 1/2 sum w^2 |e|^2 has
+moments B = sum w^2 d e^T and D = sum w^2 d d^T of lever arms d = x - c and errors e. With l_j the velocity of
+c and a_j the angular velocity that joint j causes, f = 1/2 sum w^2 |e|^2 has
 
-    -df/dq_j       = l_j . sum w^2 e + a_j . sum w^2 d x e
-    Gauss-Newton   = W l_i . l_j + a_i . (tr D - D) a_j
-    what it leaves = -a_i . (l_j x sum w^2 e + (B - tr B) a_j),   joint i carrying joint j
+    gradient      = -l_j . sum w^2 e - a_j . sum w^2 d x e
+    Gauss-Newton  = W l_i . l_j + a_i . (tr D - D) a_j
+    second order  = -a_i . (l_j x sum w^2 e + (B - tr B) a_j),   joint i carrying joint j
 
-A rotation that is missed by the vector t adds t . a_j to the slope, a_i . a_j to the normal part, and
--k (t x a_i) . (t x a_j) - t . (a_i x a_j) / 2 to the rest, with k = (1 - |t|/2 cot |t|/2) / |t|^2, from the
-inverse Jacobian of the rotation vector.
+and its Hessian is Gauss-Newton + second order. A rotation that is missed by the rotation vector t adds
+-t . a_j to the gradient, a_i . a_j to Gauss-Newton, and -k (t x a_i) . (t x a_j) - t . (a_i x a_j) / 2 to the
+second order, with k from the inverse Jacobian of the rotation vector (`rotation_vector.curvature_factor`).
+The second order vanishes where targets are met; at a compromise it does not, and without it the steps of an
+iteration only creep (Nocedal and Wright, Numerical Optimization, section 10.3).
 """
 
 from __future__ import annotations
@@ -19,42 +21,27 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+import pinocchio as pin
 
-from exo_pin.arrays import Array, Index, Mask
-from exo_pin.ik.least_squares.leg_kernel import turn
+from exo_pin.arrays import Array, Index
+from exo_pin.ik.least_squares.kernel import Evaluation
+from exo_pin.ik.least_squares.rotation_vector import curvature_factor, rotation_vector
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal
-from exo_pin.robot.subtree_arrays import SubtreeArrays, SubtreePose, times
+from exo_pin.robot import SubtreeArrays
+from exo_pin.robot.subtree_arrays import SubtreePose, times
 
 
-class Pull(NamedTuple):
-    """Cost and its derivatives over J joints, m samples, F frames.
+class WeightedTarget(NamedTuple):
+    """The target of one frame in the axes of the world at q = 0, m samples on the last axis.
 
     Attributes:
-        cost: Sum of squared weighted errors (m,).
-        slope: Half its negative gradient (J, m).
-        normal: The Gauss-Newton part of half its Hessian (J, J, m).
-        rest: The other part (J, J, m).
-        errors: Distance [m] and angle [rad] of each frame (2, F, m); NaN where no rotation is asked.
+        local: Points on the frame (3, k) [m].
+        p: Where they shall be (3, k, m) [m].
+        weight: Squared weights of the points (k, m).
+        R: Rotation since q = 0 that the frame shall have (3, 3, m), or None.
+        rotation_weight: Squared weight of the rotation.
     """
-
-    cost: Array
-    slope: Array
-    normal: Array
-    rest: Array
-    errors: Array
-
-    def where(self, better: Mask, other: Pull) -> Pull:
-        """The other's samples where they are better."""
-        return Pull(*(np.where(better, new, old) for old, new in zip(self, other, strict=True)))
-
-    def only(self, stay: Index) -> Pull:
-        """Some of the samples."""
-        return Pull(*(values[..., stay] for values in self))
-
-
-class Aim(NamedTuple):
-    """A goal of some samples, samples last: points (3, k, m), squared weights (k, m), rotation (3, 3, m)."""
 
     local: Array
     p: Array
@@ -62,22 +49,38 @@ class Aim(NamedTuple):
     R: Array | None
     rotation_weight: float
 
-    def only(self, stay: Index) -> Aim:
+    def only(self, samples: Index) -> WeightedTarget:
         """Some of the samples."""
-        R = None if self.R is None else self.R[..., stay]
-        return self._replace(p=self.p[..., stay], weight=self.weight[..., stay], R=R)
+        R = None if self.R is None else self.R[..., samples]
+        return self._replace(p=self.p[..., samples], weight=self.weight[..., samples], R=R)
 
 
-def aims(arrays: SubtreeArrays, goals: list[Goal], part: slice, settings: Dls) -> list[Aim]:
-    """The goals of some samples, their points seen from the world at q = 0."""
+class _Sums(NamedTuple):
+    """Cost (m,), errors (2, F, m), gradient (J, m), both parts of the Hessian (J, J, m), added up."""
+
+    cost: Array
+    errors: Array
+    gradient: Array
+    gauss_newton: Array
+    second_order: Array
+
+
+def weighted_targets(arrays: SubtreeArrays, goals: list[Goal], settings: Dls) -> list[WeightedTarget]:
+    """The goals of a subtree with all weights multiplied in.
+
+    Args:
+        arrays: The joints.
+        goals: One for each frame of the subtree.
+        settings: Weights of position and rotation.
+    """
     out = []
     for goal, T in zip(goals, arrays.frames, strict=True):
-        R = None if goal.R is None else np.ascontiguousarray(goal.R[part].transpose(1, 2, 0))
+        R = None if goal.R is None else np.ascontiguousarray(goal.R.transpose(1, 2, 0))
         out.append(
-            Aim(
+            WeightedTarget(
                 local=T[:3, :3] @ goal.local.T + T[:3, 3:],
-                p=np.ascontiguousarray(goal.p[part].transpose(2, 1, 0)),
-                weight=np.ascontiguousarray((settings.position_weight * goal.weight[part]).T ** 2),
+                p=np.ascontiguousarray(goal.p.transpose(2, 1, 0)),
+                weight=np.ascontiguousarray((settings.position_weight * goal.weight).T ** 2),
                 R=None if R is None else np.einsum("abm,cb->acm", R, T[:3, :3]),
                 rotation_weight=(settings.rotation_weight * goal.rotation_weight) ** 2,
             )
@@ -85,85 +88,125 @@ def aims(arrays: SubtreeArrays, goals: list[Goal], part: slice, settings: Dls) -
     return out
 
 
-def pull(arrays: SubtreeArrays, aimed: list[Aim], q: Array) -> Pull:
-    """Cost and derivatives at the configurations q (J, m)."""
-    now = arrays.pose(q)
-    count, samples = q.shape
-    total = Pull(
-        np.zeros(samples),
-        np.zeros((count, samples)),
-        np.zeros((count, count, samples)),
-        np.zeros((count, count, samples)),
-        np.full((2, len(aimed), samples), np.nan),
+def evaluate(arrays: SubtreeArrays, targets: list[WeightedTarget], q: Array) -> Evaluation:
+    """The sum of squared weighted errors, with the gradient and the Hessian of its half.
+
+    Args:
+        arrays: The joints.
+        targets: One for each frame, m samples.
+        q: Configurations (J, m).
+
+    Returns:
+        The cost, and as its model the gradient (J, m), the Gauss-Newton part (J, J, m) and the second-order
+        part (J, J, m) of the Hessian.
+    """
+    pose = arrays.pose(q)
+    count, m = q.shape
+    sums = _Sums(
+        np.zeros(m),
+        np.full((2, len(targets), m), np.nan),
+        np.zeros((count, m)),
+        np.zeros((count, count, m)),
+        np.zeros((count, count, m)),
     )
-    for f, aim in enumerate(aimed):
+    for f, target in enumerate(targets):
         own = np.flatnonzero(arrays.moves[f])
-        turns = arrays.revolute[own, None]
-        spin = now.axes[:, own] * turns
-        _add_points(total, arrays, now, aim, f, own, spin)
-        if aim.R is not None:
-            _add_rotation(total, now.R[f], aim, f, own, spin)
-    return total
+        spin = pose.axes[:, own] * arrays.revolute[own, None]
+        _add_points(sums, arrays, pose, target, f, own, spin)
+        if target.R is not None:
+            _add_rotation(sums, pose.R[f], target, f, own, spin)
+    model = sums.gradient, sums.gauss_newton, mirrored(sums.second_order)
+    return Evaluation(sums.cost, sums.errors, model)
+
+
+def points_second_order(slide: Array, spin: Array, force: Array, B: Array) -> Array:
+    """The second order of weighted points on one frame (J, J), or (J, J, m); see `mirrored`.
+
+    Args:
+        slide: Velocity of a reference point of the frame that each joint causes (3, J) or (3, J, m).
+        spin: Angular velocity of the frame that each joint causes, of the same shape.
+        force: Sum of the squared weights times the errors (3,) or (3, m).
+        B: Moments of the lever arms from the reference point with them (3, 3) or (3, 3, m).
+    """
+    return _dots(spin, _cross(force, slide) - _times(B, spin) + np.trace(B) * spin)
+
+
+def rotation_second_order(spin: Array, t: Array, angle: npt.ArrayLike) -> Array:
+    """The second order of a rotation missed by a rotation vector (J, J), or (J, J, m); see `mirrored`.
+
+    Args:
+        spin: Angular velocity of the frame that each joint causes (3, J) or (3, J, m).
+        t: Rotation vector (3,) or (3, m).
+        angle: Its length, a number or (m,) [rad].
+    """
+    twist = _cross(t, spin)
+    return 0.5 * _dots(spin, twist) - curvature_factor(angle) * _dots(twist, twist)
+
+
+def mirrored(A: Array) -> Array:
+    """The half above the diagonal of matrices (J, J, ...) on both sides: there, joint i carries joint j."""
+    row = np.arange(len(A))
+    upper = row[:, None] <= row
+    return np.where(upper.reshape(*upper.shape, *[1] * (A.ndim - 2)), A, A.swapaxes(0, 1))
 
 
 def _add_points(
-    total: Pull, arrays: SubtreeArrays, now: SubtreePose, aim: Aim, f: int, own: Index, spin: Array
+    sums: _Sums,
+    arrays: SubtreeArrays,
+    pose: SubtreePose,
+    target: WeightedTarget,
+    f: int,
+    own: Index,
+    spin: Array,
 ) -> None:
-    x = np.einsum("abm,bk->akm", now.R[f], aim.local) + now.p[f][:, None]
-    e = aim.p - x
+    x = np.einsum("abm,bk->akm", pose.R[f], target.local) + pose.p[f][:, None]
+    e = target.p - x
     distance = np.sqrt((e * e).sum(axis=0))
-    total.errors[0, f] = np.where(aim.weight > 0.0, distance, 0.0).max(axis=0)
-    weighted = aim.weight * e
-    total.cost[:] += (weighted * e).sum(axis=(0, 1))
-    W, force = aim.weight.sum(axis=0), weighted.sum(axis=1)
-    centre = (aim.weight * x).sum(axis=1) / np.where(W > 0.0, W, 1.0)
+    sums.errors[0, f] = np.where(target.weight > 0.0, distance, 0.0).max(axis=0)
+    weighted = target.weight * e
+    sums.cost[:] += (weighted * e).sum(axis=(0, 1))
+    W, force = target.weight.sum(axis=0), weighted.sum(axis=1)
+    centre = (target.weight * x).sum(axis=1) / np.where(W > 0.0, W, 1.0)
     d = x - centre[:, None]
     B = (d[:, None] * weighted).sum(axis=2)
-    D = (d[:, None] * (aim.weight * d)).sum(axis=2)
+    D = (d[:, None] * (target.weight * d)).sum(axis=2)
     torque = np.stack([B[1, 2] - B[2, 1], B[2, 0] - B[0, 2], B[0, 1] - B[1, 0]])
     slide = np.where(
-        arrays.revolute[own, None], cross(spin, centre[:, None] - now.points[:, own]), now.axes[:, own]
+        arrays.revolute[own, None], _cross(spin, centre[:, None] - pose.points[:, own]), pose.axes[:, own]
     )
-    total.slope[own] += (slide * force[:, None]).sum(axis=0) + (spin * torque[:, None]).sum(axis=0)
+    sums.gradient[own] -= (slide * force[:, None]).sum(axis=0) + (spin * torque[:, None]).sum(axis=0)
     square = np.ix_(own, own)
     inertia = np.trace(D) * spin - times(D, spin)
-    total.normal[square] += _dots(W * slide, slide) + _dots(spin, inertia)
-    bent = cross(slide, np.broadcast_to(force[:, None], slide.shape)) + times(B, spin) - np.trace(B) * spin
-    total.rest[square] -= _mirrored(_dots(spin, bent))
+    sums.gauss_newton[square] += _dots(W * slide, slide) + _dots(spin, inertia)
+    sums.second_order[square] += points_second_order(slide, spin, force, B)
 
 
-def _add_rotation(total: Pull, R: Array, aim: Aim, f: int, own: Index, spin: Array) -> None:
-    assert aim.R is not None
-    t = turn([list(row) for row in R], [list(row) for row in aim.R])
+def _add_rotation(sums: _Sums, R: Array, target: WeightedTarget, f: int, own: Index, spin: Array) -> None:
+    assert target.R is not None
+    t = rotation_vector([list(row) for row in R], [list(row) for row in target.R])
     angle = np.sqrt((t * t).sum(axis=0))
-    total.errors[1, f] = angle
-    weight = aim.rotation_weight
-    total.cost[:] += weight * angle**2
-    total.slope[own] += weight * (spin * t[:, None]).sum(axis=0)
+    sums.errors[1, f] = angle
+    weight = target.rotation_weight
+    sums.cost[:] += weight * angle**2
+    sums.gradient[own] -= weight * (spin * t[:, None]).sum(axis=0)
     square = np.ix_(own, own)
-    total.normal[square] += weight * _dots(spin, spin)
-    k = bow(angle)
-    twist = cross(np.broadcast_to(t[:, None], spin.shape), spin)
-    total.rest[square] -= weight * (k * _dots(twist, twist) + 0.5 * _mirrored(_dots(spin, -twist)))
+    sums.gauss_newton[square] += weight * _dots(spin, spin)
+    sums.second_order[square] += weight * rotation_second_order(spin, t, angle)
 
 
-def bow(angle: npt.ArrayLike) -> Array:
-    """The k of the module's formulas for missed rotations by these angles [rad]; 1/12 for small ones."""
-    half = 0.5 * np.maximum(angle, 1e-4)
-    return np.asarray((1.0 - half / np.tan(half)) / (4.0 * half * half))
+def _cross(v: Array, b: Array) -> Array:
+    """Cross products: (3,) x (3, J) for one sample; for many, (3, m) or (3, J, m) x (3, J, m)."""
+    if b.ndim == 2:
+        return np.asarray(pin.skew(v) @ b)
+    return np.stack([v[1] * b[2] - v[2] * b[1], v[2] * b[0] - v[0] * b[2], v[0] * b[1] - v[1] * b[0]])
 
 
-def cross(a: Array, b: Array) -> Array:
-    """The cross product along the first axis."""
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+def _times(A: Array, b: Array) -> Array:
+    return np.asarray(A @ b) if b.ndim == 2 else times(A, b)
 
 
 def _dots(a: Array, b: Array) -> Array:
-    """Every a with every b: (3, J, m), (3, J, m) -> (J, J, m)."""
+    """Every a with every b: (3, J), (3, J) -> (J, J), or (3, J, m), (3, J, m) -> (J, J, m)."""
+    if a.ndim == 2:
+        return np.asarray(a.T @ b)
     return np.asarray(a[0, :, None] * b[0] + a[1, :, None] * b[1] + a[2, :, None] * b[2])
-
-
-def _mirrored(A: Array) -> Array:
-    """The half above the diagonal on both sides: there, the first joint carries the second."""
-    upper = np.triu(np.ones(A.shape[:2], dtype=bool))[..., None]
-    return np.where(upper, A, A.swapaxes(0, 1))
