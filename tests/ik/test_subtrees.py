@@ -11,11 +11,11 @@ from exo_pin.compare import Conditions, best, robot_for, walk
 from exo_pin.compare.recorded_walk import corners
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
-from exo_pin.ik.least_squares.cost import aims, pull
-from exo_pin.ik.least_squares.residual import residual
-from exo_pin.ik.least_squares.second_order import bend
-from exo_pin.ik.least_squares.step_limit import HASTE, pace
-from exo_pin.ik.least_squares.subtree_kernel import descend
+from exo_pin.ik.least_squares.cost import evaluate, weighted_targets
+from exo_pin.ik.least_squares.driver import minimise
+from exo_pin.ik.least_squares.single_sample import SampleKernel
+from exo_pin.ik.least_squares.step_limit import step_limits
+from exo_pin.ik.least_squares.subtree_kernel import SubtreeKernel
 from exo_pin.ik.problem import problem
 from exo_pin.kinematics import poses
 from exo_pin.robot import Subtree, load_robot
@@ -24,6 +24,7 @@ SAME = 1e-6  # rad, m: two iterations towards one flat minimum, the slower one s
 SLOPE = 1e-9  # central differences of step 1e-5 of values of about 1
 BOUNDS = 1e-9  # m^2: scipy starts inside its bounds only, which are therefore 1e-9 rad wider
 EXACT = 1e-12  # the same arithmetic in another order
+RATIO = 2.0  # how much faster than its target a joint may be that cannot reach it
 DEVICES = ("lopes8", "planar9", "lokomat")
 
 
@@ -57,19 +58,29 @@ def test_arrays_and_pinocchio_put_the_frames_in_the_same_places(device, rng):
         assert np.abs(p - expected[:, f, :3, 3]).max() <= EXACT
 
 
+def _minimum(arrays, goals, seed, lower, upper, settings):
+    kernel = SubtreeKernel(arrays, weighted_targets(arrays, goals, settings), _column(lower), _column(upper))
+    return minimise(kernel, seed, settings)
+
+
+def _column(limit):
+    return np.reshape(limit, (len(limit), -1))
+
+
 @pytest.mark.parametrize("device", DEVICES)
-def test_slope_and_curvature_are_the_derivatives_of_the_cost(device, rng):
+def test_gradient_and_hessian_are_the_derivatives_of_half_the_cost(device, rng):
     _, subtree, goals = _task(device, rng)
-    joints, step = subtree.arrays, 1e-5
-    aimed = aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2))
+    arrays, step = subtree.arrays, 1e-5
+    targets = weighted_targets(arrays, goals, ik.Dls(position_weight=1.2))
     q = rng.uniform(-0.4, 0.4, (len(subtree.columns), 20))
-    here = pull(joints, aimed, q)
+    gradient, gauss_newton, second_order = evaluate(arrays, targets, q).model
     for j in range(len(q)):
         aside = np.zeros((len(q), 1))
         aside[j] = step
-        up, down = pull(joints, aimed, q + aside), pull(joints, aimed, q - aside)
-        assert (down.cost - up.cost) / (4 * step) == pytest.approx(here.slope[j], abs=SLOPE)
-        assert (down.slope - up.slope) / (2 * step) == pytest.approx(here.normal[j] + here.rest[j], abs=SLOPE)
+        up, down = evaluate(arrays, targets, q + aside), evaluate(arrays, targets, q - aside)
+        assert (up.cost - down.cost) / (4 * step) == pytest.approx(gradient[j], abs=SLOPE)
+        hessian = (up.model[0] - down.model[0]) / (2 * step)
+        assert hessian == pytest.approx(gauss_newton[j] + second_order[j], abs=SLOPE)
 
 
 @pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])
@@ -108,28 +119,29 @@ def test_answers_keep_limits_of_each_sample_and_hold_joints_between_equal_ones(r
     seed = rng.uniform(-0.2, 0.2, (len(subtree.columns), 20))
     width = rng.uniform(0, 0.3, seed.shape)
     width[rng.random(seed.shape) < 0.3] = 0.0
-    out = descend(subtree.arrays, goals, seed, seed - width, seed + width, ik.Dls(tolerance=1e-10))
+    out = _minimum(subtree.arrays, goals, seed, seed - width, seed + width, ik.Dls(tolerance=1e-10))
     assert ((out.q >= seed - width) & (out.q <= seed + width)).all()
     assert np.array_equal(out.q[width == 0.0], seed[width == 0.0])
 
 
-def test_no_free_joint_has_a_slope_left_and_a_held_one_is_pushed_outwards(rng):
+def test_no_free_joint_has_a_gradient_left_and_a_held_one_is_pushed_outwards(rng):
     _, subtree, goals = _task("lopes8", rng)
     joints, low, high = subtree.arrays, subtree.lower[:, None], subtree.upper[:, None]
-    out = descend(joints, goals, np.zeros((len(subtree.columns), 20)), subtree.lower, subtree.upper, ik.Dls())
-    slope = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls()), out.q).slope
+    seed = np.zeros((len(subtree.columns), 20))
+    out = _minimum(joints, goals, seed, subtree.lower, subtree.upper, ik.Dls())
+    gradient = evaluate(joints, weighted_targets(joints, goals, ik.Dls()), out.q).model[0]
     inside = (out.q > low) & (out.q < high)
-    assert np.abs(slope[inside]).max() < SAME
-    assert (slope[out.q <= low] <= SAME).all()
-    assert (slope[out.q >= high] >= -SAME).all()
+    assert np.abs(gradient[inside]).max() < SAME
+    assert (gradient[out.q <= low] >= -SAME).all()
+    assert (gradient[out.q >= high] <= SAME).all()
 
 
 def test_samples_do_not_know_of_each_other(rng):
     _, subtree, goals = _task("planar9", rng)
     seed = rng.uniform(-0.2, 0.2, (len(subtree.columns), 20))
-    all_of_them = descend(subtree.arrays, goals, seed, subtree.lower, subtree.upper, ik.Dls())
+    all_of_them = _minimum(subtree.arrays, goals, seed, subtree.lower, subtree.upper, ik.Dls())
     order = rng.permutation(20)[:7]
-    some = descend(
+    some = _minimum(
         subtree.arrays, [g.only(order) for g in goals], seed[:, order], subtree.lower, subtree.upper, ik.Dls()
     )
     assert some.q == pytest.approx(all_of_them.q[:, order], abs=SAME)
@@ -167,13 +179,13 @@ def test_the_motion_after_targets_out_of_reach_is_continuous(device, pelvis):
         assert not track.converged.any()
         task = problem(robot, feet, None, gait.base if pelvis == "recorded" else None)
         subtree = task.subtrees[0]
-        most = pace(subtree.arrays, task.goals_of(subtree))[1:]
+        most = step_limits(subtree.arrays, task.goals_of(subtree))[1:]
         assert (np.abs(np.diff(track.q[:, subtree.columns], axis=0)) <= most + EXACT).all()
         fastest.append(np.abs(np.diff(track.q, axis=0)).max() * samples)
     assert fastest[1] == pytest.approx(fastest[0], rel=0.2)  # a speed, not a jump
 
 
-def test_targets_that_are_met_set_the_pace_themselves():
+def test_targets_that_are_met_need_no_step_limit():
     robot = load_robot(device="planar7")
     q = np.zeros((40, robot.nq))
     q[20:] = np.clip(robot.q({"left_knee_flexion": 0.5, "right_hip_flexion": 0.4}), robot.lower, robot.upper)
@@ -181,19 +193,19 @@ def test_targets_that_are_met_set_the_pace_themselves():
     assert ik.track(robot, targets, robot.q()).converged.all()
 
 
-def test_the_pace_is_the_way_over_the_arm_and_the_turn():
+def test_the_step_limit_is_the_path_over_the_lever_arm_and_the_angle():
     robot = load_robot(device="lokomat")
     T = np.tile(poses(robot, robot.q(), ["left_foot"])[0], (4, 1, 1))
     T[1:, 0, 3] += 0.02
     T[2:, :3, :3] = T[0, :3, :3] @ _about_y(0.1)
     task = problem(robot, {"left_foot": T}, None, None)
     joints = task.subtrees[0].arrays
-    most = pace(joints, task.goals_of(task.subtrees[0]))
+    most = step_limits(joints, task.goals_of(task.subtrees[0]))
     leg = robot.body.leg("left")
     arms = np.array([np.inf, leg.thigh + leg.shank + leg.ankle_height, leg.shank + leg.ankle_height])
     assert np.isinf(most[0]).all()
-    assert most[1] == pytest.approx(HASTE * np.array([0.02, *(0.02 / arms[1:])]))
-    assert most[2] == pytest.approx(np.maximum(most[1], HASTE * np.array([0.0, 0.1, 0.1])))
+    assert most[1] == pytest.approx(RATIO * np.array([0.02, *(0.02 / arms[1:])]))
+    assert most[2] == pytest.approx(np.maximum(most[1], RATIO * np.array([0.0, 0.1, 0.1])))
     assert np.array_equal(most[3], most[2])
 
 
@@ -203,14 +215,21 @@ def _about_y(angle):
 
 
 @pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])
-def test_one_sample_and_many_bend_alike(device, rng):
+def test_one_sample_and_many_have_the_same_cost_and_hessian(device, rng):
     _, subtree, goals = _task(device, rng) if device != "h2" else _legs(device, rng)
-    joints, data = subtree.arrays, subtree.model.createData()
+    arrays, data = subtree.arrays, subtree.model.createData()
     q = rng.uniform(-0.4, 0.4, (len(subtree.columns), 20))
-    rest = pull(joints, aims(joints, goals, slice(0, 20), ik.Dls(position_weight=1.2)), q).rest
+    many = evaluate(arrays, weighted_targets(arrays, goals, ik.Dls(position_weight=1.2)), q)
+    gradient, gauss_newton, second_order = many.model
     for k in range(20):
-        residual(subtree, data, q[:, k], goals, k)
-        assert bend(subtree, data, goals, k, (1.2, 1.0)) == pytest.approx(rest[..., k], abs=EXACT)
+        one = SampleKernel(subtree, data, goals, k, position_weight=1.2, compromise=True)
+        now = one.evaluate(q[:, k : k + 1])
+        e, J, rest = (part[..., 0] for part in now.model)
+        assert now.cost[0] == pytest.approx(many.cost[k], abs=EXACT)
+        assert -J.T @ e == pytest.approx(gradient[:, k], abs=EXACT)
+        assert np.abs(J.T @ J - gauss_newton[..., k]).max() < EXACT
+        assert rest == pytest.approx(second_order[..., k], abs=EXACT)
+        assert now.errors[..., 0] == pytest.approx(many.errors[..., k], abs=EXACT, nan_ok=True)
 
 
 def _legs(device, rng):

@@ -11,7 +11,7 @@ from exo_pin.compare.best_motion import velocity_step_limits
 from exo_pin.compare.recorded_walk import corners, sole_targets
 from exo_pin.devices import find
 from exo_pin.gait import normative_gait
-from exo_pin.ik.least_squares.velocity_limited import paced
+from exo_pin.ik.least_squares.velocity_limited import velocity_limited
 from exo_pin.kinematics import poses
 
 SPARED = 1.001  # the penalty leaves about 1e-5 rad of a step of 0.1 rad
@@ -51,26 +51,30 @@ def test_the_best_motion_keeps_the_device_s_speeds_and_ranges(device):
 @pytest.mark.parametrize("device", TIGHT)
 def test_a_motion_without_speed_limits_jumps_and_loses_hardly_less(device, monkeypatch):
     recorded, robot, motion, _ = _case(device, 100)
-    monkeypatch.setattr("exo_pin.compare.best_motion.paced", lambda robot, targets, q, pace, base: q)
+    monkeypatch.setattr(
+        "exo_pin.compare.best_motion.velocity_limited", lambda robot, targets, q, pace, base: q
+    )
     free = best(recorded, robot, Conditions("device"))
     assert (_speeds(free.q) > 1.5 * velocity_step_limits(recorded.gait, robot)).any()
     slow, quick = (((m.corners - recorded.corners) ** 2).sum(axis=-1).mean() ** 0.5 for m in (motion, free))
     assert quick <= slow < quick + 0.0005  # metres
 
 
-def test_a_motion_that_keeps_its_pace_is_returned_as_it_is():
+def test_a_motion_that_keeps_its_step_limits_is_returned_as_it_is():
     recorded, robot, motion, _ = _case("h2", 100)
     targets = sole_targets(robot, recorded.corners)
-    again = paced(robot, targets, motion.q, velocity_step_limits(recorded.gait, robot), base=recorded.base)
+    again = velocity_limited(
+        robot, targets, motion.q, velocity_step_limits(recorded.gait, robot), base=recorded.base
+    )
     assert np.array_equal(again, motion.q)
 
 
 def test_a_cycle_may_be_cut_open_anywhere():
     recorded, robot, motion, plain = _case("lokomat", 60)
     base, steps = _stand(robot, motion), 0.5 * velocity_step_limits(recorded.gait, robot)
-    whole = paced(robot, sole_targets(robot, recorded.corners), plain.q, steps, base=base)
+    whole = velocity_limited(robot, sole_targets(robot, recorded.corners), plain.q, steps, base=base)
     rolled = [np.roll(x, 17, axis=0) for x in (recorded.corners, plain.q, base)]
-    again = paced(robot, sole_targets(robot, rolled[0]), rolled[1], steps, base=rolled[2])
+    again = velocity_limited(robot, sole_targets(robot, rolled[0]), rolled[1], steps, base=rolled[2])
     one, other = (
         1e3 * (_missed(recorded, robot, q, base) / 480) ** 0.5 for q in (whole, np.roll(again, -17, axis=0))
     )
@@ -83,7 +87,7 @@ def test_an_open_motion_does_not_return_to_its_start():
     base, targets = _stand(robot, motion), sole_targets(robot, recorded.corners)
     steps = 0.3 * velocity_step_limits(recorded.gait, robot)
     part, rows = {f: _first(t, 20) for f, t in targets.items()}, slice(0, 20)
-    q = paced(robot, part, motion.q[rows], steps[:19], base=base[rows])
+    q = velocity_limited(robot, part, motion.q[rows], steps[:19], base=base[rows])
     assert (np.abs(np.diff(q, axis=0)) <= SPARED * steps[:19]).all()
     assert (np.abs(q[0] - q[-1]) > steps[19]).any()
 
@@ -98,7 +102,7 @@ def test_another_optimiser_finds_no_better_motion():
     recorded, robot, motion, _ = _case("lokomat", 6)
     base, targets = _stand(robot, motion), sole_targets(robot, recorded.corners)
     steps = 0.4 * velocity_step_limits(recorded.gait, robot)
-    found = paced(robot, targets, motion.q, steps, base=base)
+    found = velocity_limited(robot, targets, motion.q, steps, base=base)
     assert (_speeds(motion.q) > steps).any()
     assert (_speeds(found) <= SPARED * steps).all()
 
@@ -117,10 +121,12 @@ def test_another_optimiser_finds_no_better_motion():
 
 
 @pytest.mark.parametrize("device", ["planar7", "lopes8", "lokomat"])
-def test_redundant_and_hurried_devices_keep_a_third_of_their_pace(device):
+def test_redundant_and_hurried_devices_keep_a_third_of_their_velocity(device):
     recorded, robot, motion, _ = _case(device, 60)
     steps = 0.3 * velocity_step_limits(recorded.gait, robot)
     assert (_speeds(motion.q) > steps).any()
-    q = paced(robot, sole_targets(robot, recorded.corners), motion.q, steps, base=_stand(robot, motion))
+    q = velocity_limited(
+        robot, sole_targets(robot, recorded.corners), motion.q, steps, base=_stand(robot, motion)
+    )
     assert (_speeds(q) <= HURRIED * steps).all()
     robot.check_limits(q)
