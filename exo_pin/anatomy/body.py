@@ -1,4 +1,4 @@
-"""The body that wears the exoskeleton: sizes, masses and joint ranges, left and right apart."""
+"""`Body`: sizes, masses and joint ranges of the wearer and the device, left and right apart."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class Body:
         sex: Sex = "male",
         **overrides: Any,
     ) -> Body:
-        """The body of average proportions; `exo_pin.anatomy.tables` names the sources.
+        """The body of average proportions; `exo_pin.anatomy.anthropometry` names the sources.
 
         Args:
             stature: Height of the person [m].

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, Movement
-from exo_pin.devices.actuator import CHOSEN, RANGES, Actuator
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.devices.actuator import ADDED_JOINT_RANGES, DEFAULT_ACTUATORS, Actuator
 from exo_pin.errors import DescriptionError, UnknownNameError
 
 SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
@@ -195,11 +195,11 @@ def _in_order(joints: Iterable[str]) -> tuple[str, ...]:
     return tuple(joint for joint in JOINTS if joint in given)
 
 
-def _actuator(movement: Movement, given: Mapping[str, Actuator]) -> Actuator:
+def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
     for name in given:
-        if name not in CHOSEN:
-            raise UnknownNameError("movement", name, CHOSEN)
-    actuator = Actuator(*map(float, given.get(movement, CHOSEN[movement])))
+        if name not in DEFAULT_ACTUATORS:
+            raise UnknownNameError("movement", name, DEFAULT_ACTUATORS)
+    actuator = Actuator(*map(float, given.get(movement, DEFAULT_ACTUATORS[movement])))
     if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf):
         raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
     return actuator
@@ -215,8 +215,8 @@ def _span(what: str, pair: tuple[float, float] | None) -> tuple[float, float] | 
 
 
 def _checked_ranges(given: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    known = {*MOVEMENTS, *RANGES}
-    ranges = dict(RANGES)
+    known = {*MOVEMENTS, *ADDED_JOINT_RANGES}
+    ranges = dict(ADDED_JOINT_RANGES)
     for name, pair in given.items():
         if name not in known:
             raise UnknownNameError("movement", name, sorted(known))

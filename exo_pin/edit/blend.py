@@ -12,8 +12,8 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.curves import at_phase
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
+from exo_pin.gait.time_series import at_phase
 
 _LARGEST_WARP = 0.9
 """Largest relative change of a phase's rate by the time warp; at 1 the phase would run backwards."""

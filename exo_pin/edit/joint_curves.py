@@ -12,7 +12,7 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
 
 _RAMP_STEP = 0.01
 """Largest time between samples of a ramp [s]; the walk's own where that is smaller."""

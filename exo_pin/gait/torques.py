@@ -1,4 +1,4 @@
-"""Joint torques as data: what acts at the joints of a walk, computed or measured elsewhere."""
+"""Joint torques over time: data of a walk, computed or measured elsewhere."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.validation import check_time, frozen
 
-LARGEST = 3000.0
+_LARGEST_TORQUE = 3000.0
 """No joint of a leg bears more [N m]; a larger number is nearly always N mm taken for N m."""
 
 
@@ -83,7 +83,7 @@ def _check(tau: Array, n: int) -> None:
         )
     if np.isnan(tau).all():
         raise GaitError("tau holds no torque: every one is NaN")
-    bad = np.abs(tau) > LARGEST
+    bad = np.abs(tau) > _LARGEST_TORQUE
     if bad.any():
         row, k = np.argwhere(bad)[0]
         raise GaitError(f"torque of {JOINTS[k]} in row {row} is {tau[row, k]:g} N m: N mm given as N m?")
