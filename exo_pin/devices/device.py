@@ -14,6 +14,7 @@ from typing import Any
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
 from exo_pin.devices.actuator import ADDED_JOINT_RANGES, DEFAULT_ACTUATORS, Actuator
 from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 
 SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
 """Slides that may carry the pelvis, from the stand outwards; the name is the positive direction."""
@@ -71,19 +72,22 @@ class Device:
             raise DescriptionError(
                 f"device name {self.name!r}: lower-case letters, digits and _ are accepted"
             )
-        for what in ("joints", "passive"):
-            object.__setattr__(self, what, _in_order(getattr(self, what)))
+        set_fields(self, joints=_in_order(self.joints), passive=_in_order(self.passive))
         both = set(self.joints) & set(self.passive)
         if both:
             raise DescriptionError(f"device {self.name}: {min(both)} is driven and passive at once")
         if not self.joints:
             raise DescriptionError(f"device {self.name} drives no joint")
         self._check_pelvis()
-        for what in ("treadmill", "statures"):
-            object.__setattr__(self, what, _span(what, getattr(self, what)))
+        set_fields(
+            self, treadmill=_span("treadmill", self.treadmill), statures=_span("statures", self.statures)
+        )
         complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
-        object.__setattr__(self, "actuators", MappingProxyType(complete))
-        object.__setattr__(self, "ranges", MappingProxyType(_checked_ranges(self.ranges)))
+        set_fields(
+            self,
+            actuators=MappingProxyType(complete),
+            ranges=MappingProxyType(_checked_ranges(self.ranges)),
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled by its fields, since a read-only mapping cannot be: for work in other processes."""
@@ -99,7 +103,7 @@ class Device:
         for name in self.pelvis:
             if name not in SLIDES:
                 raise UnknownNameError("slide", name, SLIDES)
-        object.__setattr__(self, "pelvis", tuple(name for name in SLIDES if name in self.pelvis))
+        set_fields(self, pelvis=tuple(name for name in SLIDES if name in self.pelvis))
 
     @property
     def _movements(self) -> tuple[str, ...]:

@@ -164,7 +164,7 @@ def _along(walk: Gait, time: Array, phase: Array) -> Gait:
     inside = [event for event in walk.events if phase[0] <= event.time <= phase[-1]]
     strictly = 1e-12 * np.arange(len(phase))  # so that it can be inverted
     grown = np.maximum.accumulate(phase + strictly)
-    events = [dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside]
+    events = tuple(dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside)
     return Gait(time, q, base=base, events=events, source=walk.source)
 
 

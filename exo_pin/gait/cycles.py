@@ -92,10 +92,10 @@ class Cycles:
         base = None if self.base is None else nearest_pose(_closed(self.base.mean(axis=0)))
         T = float(self.duration.mean())
         source = source or f"mean of {len(self)} {self.side} cycle{'s' * (len(self) != 1)}"
-        events = [
+        events = tuple(
             Event(T * float(phases.mean()), kind, side, f"mean of {len(phases)}")
             for (kind, side), phases in self.contacts.items()
-        ]
+        )
         return Gait(T * np.arange(len(q)) / len(q), q, base=base, events=events, periodic=True, source=source)
 
 

@@ -13,6 +13,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 
 EVENT_KINDS: tuple[EventKind, ...] = ("heel_strike", "toe_off")
 """Initial contact of a foot with the ground, and the end of its contact."""
@@ -46,7 +47,7 @@ class Event:
     def __post_init__(self) -> None:
         if not np.isfinite(self.time):
             raise GaitError(f"event {self.kind} {self.side}: time is {self.time}, expected finite seconds")
-        object.__setattr__(self, "time", float(self.time))  # numpy scalars would print as np.float64(...)
+        set_fields(self, time=float(self.time))  # numpy scalars would print as np.float64(...)
         for what, value, known in (("kind", self.kind, EVENT_KINDS), ("side", self.side, SIDES)):
             if value not in known:
                 choices = " or ".join(map(repr, known))

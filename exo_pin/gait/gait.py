@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
+from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import rigid_poses, time_series
 from exo_pin.gait.event import Event, stance
 from exo_pin.gait.validation import (
@@ -32,12 +31,14 @@ _ON_GRID = 1e-6
 """A sample this little before the recording's start, in samples, is on it."""
 
 
-@dataclass(frozen=True, eq=False, init=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Gait:
     """Joint angles over time, in the order of `JOINTS` and the clinical hip convention.
 
     A periodic gait stores [0, T): the sample at T is the sample at 0 and is never stored. Its base returns
     to the same place after every cycle (walking on the spot, as on a treadmill).
+
+    Array-likes are accepted and copied; the arrays of a gait are read-only.
 
     Attributes:
         time: `(n,)` strictly increasing [s]; a periodic gait starts at 0 and is evenly sampled.
@@ -53,32 +54,26 @@ class Gait:
 
     time: Array
     q: Array
+    _: KW_ONLY
     base: Array | None = None
     events: tuple[Event, ...] = ()
     periodic: bool = False
     source: str = ""
 
-    def __init__(  # written out: numpy's array-likes go in, read-only arrays come out
-        self,
-        time: ArrayLike,
-        q: ArrayLike,
-        *,
-        base: ArrayLike | None = None,
-        events: Iterable[Event] = (),
-        periodic: bool = False,
-        source: str = "",
-    ) -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(time, "time"))
-        put(self, "q", frozen(q, "q"))
-        put(self, "base", None if base is None else frozen(base, "base"))
-        put(self, "periodic", bool(periodic))
-        put(self, "source", str(source))
+    def __post_init__(self) -> None:
+        set_fields(
+            self,
+            time=frozen(self.time, "time"),
+            q=frozen(self.q, "q"),
+            base=None if self.base is None else frozen(self.base, "base"),
+            periodic=bool(self.periodic),
+            source=str(self.source),
+        )
         check_time(self.time, self.periodic)
         check_angles(self.q, len(self.time))
         if self.base is not None:
             check_poses(self.base, len(self.time), "base")
-        put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
+        set_fields(self, events=tuple(sorted(self.events, key=lambda event: event.time)))
         check_events(self.events, self.time, self.periodic)
 
     def __repr__(self) -> str:

@@ -133,7 +133,7 @@ def _turns(axis: int, angle: Array) -> Array:
     return R
 
 
-def _events(speed: str, stride: float) -> list[Event]:
+def _events(speed: str, stride: float) -> tuple[Event, ...]:
     at = TIMING[speed]
     moments: tuple[tuple[float, EventKind, Side], ...] = (
         (0.0, "heel_strike", "left"),
@@ -141,4 +141,4 @@ def _events(speed: str, stride: float) -> list[Event]:
         (at["opposite_contact"], "heel_strike", "right"),
         (at["foot_off"], "toe_off", "left"),
     )
-    return [Event(stride * percent / 100, kind, side, _SOURCE) for percent, kind, side in moments]
+    return tuple(Event(stride * percent / 100, kind, side, _SOURCE) for percent, kind, side in moments)

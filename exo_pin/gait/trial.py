@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_time, frozen
 
@@ -38,7 +39,7 @@ class ForcePlate:
 
     def __post_init__(self) -> None:
         for name in ("time", "force", "point", "moment"):
-            object.__setattr__(self, name, frozen(getattr(self, name), f"{self.name}: {name}"))
+            set_fields(self, **{name: frozen(getattr(self, name), f"{self.name}: {name}")})
         for name in ("force", "point", "moment"):
             if getattr(self, name).shape != (len(self.time), 3):
                 raise GaitError(f"{self.name}: {name} has shape {getattr(self, name).shape}, expected (m, 3)")
@@ -72,11 +73,9 @@ class Markers:
     source: str = ""
 
     def __post_init__(self) -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(self.time, "time"))
+        set_fields(self, time=frozen(self.time, "time"), names=tuple(self.names))
         check_time(self.time, periodic=False)
-        put(self, "names", tuple(self.names))
-        put(self, "position", frozen(self.position, "position"))
+        set_fields(self, position=frozen(self.position, "position"))
         n, k = len(self.time), len(self.names)
         if self.position.shape != (n, k, 3):
             raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")
@@ -86,7 +85,7 @@ class Markers:
             raise GaitError("a marker is at infinity; expected metres, or NaN where it was not seen")
         if self.up not in ("", *UP_AXES):
             raise UnknownNameError("axis", self.up, UP_AXES)
-        put(self, "angles", MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
+        set_fields(self, angles=MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
         for name, values in self.angles.items():
             if values.shape != (n, 3):
                 raise GaitError(f"{name} has shape {values.shape}, expected ({n}, 3)")
