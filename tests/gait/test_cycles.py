@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError, UnknownNameError
@@ -21,6 +23,7 @@ from exo_pin.gait import (
     normal,
     normative_gait,
     reference_values,
+    side_with_more_strides,
     spatiotemporal,
 )
 from exo_pin.kinematics import spatiotemporal as of_walk
@@ -139,6 +142,18 @@ def test_lengths_are_over_the_ground_whatever_the_heading_or_the_belt(belt, head
     assert numbers["stride_length"].sd == pytest.approx(0, abs=1e-6)
 
 
+def test_the_foot_with_more_strides_counts_only_strides_and_is_left_of_equals():
+    walk = normative_gait("free").repeated(4)
+    recording = Gait(walk.time, walk.q, events=walk.events)
+    assert side_with_more_strides(recording) == "left"  # the first strike is the left foot's
+    late = Gait(walk.time, walk.q, events=[e for e in walk.events if e.side == "right" or e.time > 2.0])
+    assert side_with_more_strides(late) == "right"
+    assert side_with_more_strides(walk) == "left"
+    offs = [e for e in walk.events if (e.side, e.kind) == ("left", "toe_off")]
+    without = Gait(walk.time, walk.q, events=[e for e in walk.events if e != offs[1]])
+    assert side_with_more_strides(without) == "right"  # a left stride without its toe-off is none
+
+
 def test_steps_of_a_periodic_walk_are_counted_once():
     numbers = of_walk(load_robot(), normative_gait("free"))
     assert {name: number.n for name, number in numbers.items() if name != "stride_length"} == {
@@ -244,6 +259,16 @@ def test_contacts_begin_and_end_at_the_threshold_between_the_samples():
     assert found[0].off == pytest.approx(0.7 + 0.1 / 3)
 
 
+@given(st.floats(5.0, 600.0), st.floats(1500.0, 9000.0), st.floats(0.001, 0.019))
+def test_a_contact_begins_where_a_ramp_of_force_passes_the_threshold(threshold, slope, offset):
+    """The force rises and falls evenly between samples that lie anywhere, also at an uneven rate."""
+    time = np.sort(np.concatenate([np.arange(0.0, 2.0, 0.02), [0.5 + offset, 1.5 + offset]]))
+    force = slope * np.clip(np.minimum(time - 0.2, 1.8 - time), -1.0, 1.0)
+    (found,) = force_plates.contacts(time, force, threshold=threshold)
+    assert found.strike == pytest.approx(0.2 + threshold / slope, abs=1e-9)
+    assert found.off == pytest.approx(1.8 - threshold / slope, abs=1e-9)
+
+
 def test_contacts_at_the_ends_are_open_and_short_ones_are_noise():
     first, second = force_plates.contacts(*force((-1, 0.3), (0.5, 0.52), (1.2, 3)))
     assert first.strike is None
@@ -281,6 +306,32 @@ def test_usual_walks_are_plausible():
 def test_a_wrong_sign_is_implausible_with_its_reason(joint, change, reason):
     found = implausibilities(changed(joint, change))
     assert any(re.search(reason, text) for text in found), found
+
+
+SWING = "both hips extend while the knee is bent most"
+
+
+def test_a_walk_in_reverse_order_looks_like_a_hip_of_wrong_sign():
+    walk = normative_gait("free")
+    assert any(SWING in text for text in implausibilities(Gait(walk.time, walk.q[::-1])))
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_one_hip_against_its_knee_is_not_both(side):
+    walk = normative_gait("free")
+    q = walk.q.copy()
+    q[:, JOINTS.index(f"{side}_hip_flexion")] *= -1.0
+    assert not any(SWING in text for text in implausibilities(Gait(walk.time, q)))
+
+
+@pytest.mark.parametrize(("joint", "share"), [("knee_flexion", 0.4), ("hip_flexion", 0.25)])
+def test_legs_that_hardly_swing_have_no_swing_to_judge(joint, share):
+    """A knee that bends by less than 30 degrees, or a hip by less than 15, says nothing about the signs."""
+    walk = normative_gait("free")
+    q = walk.q[::-1].copy()
+    for side in SIDES:
+        q[:, JOINTS.index(f"{side}_{joint}")] *= share
+    assert not any(SWING in text for text in implausibilities(Gait(walk.time, q)))
 
 
 def test_angles_that_hardly_move_are_implausible():
