@@ -1,4 +1,4 @@
-"""Description: from a `Body` to the URDF text of the exoskeleton, through the xacro sources in urdf/."""
+"""URDF description: from a `Body` and a device to the URDF text, through the xacro sources in urdf/."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _BOUNDS = {
     "_link_mass": (1e-6, 500.0),  # [kg]
     "_com": (-2.0, 2.0),  # [m] from the link's joint
 }
-"""What a single argument can be, by the end of its name."""
+"""Plausible range of a single argument, by the end of its name."""
 
 
 def sources() -> Path:
@@ -88,7 +88,15 @@ def urdf(
 ) -> str:
     """The URDF text of the exoskeleton for this body: the same bytes for the same arguments everywhere.
 
-    Arguments and errors are those of `arguments`.
+    Args:
+        body: Sizes, masses and joint ranges.
+        device: A device, its name, or a TOML file that holds one.
+        hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        **overrides: Single xacro arguments, e.g. `left_thigh_link_mass="12.5"`.
+
+    Raises:
+        UnknownNameError: Device, hip order or an override is unknown.
+        DescriptionError: An override is no plausible number, an inertia is not physical, or xacro fails.
     """
     found = devices.find(device)
     return expand(arguments(body, device=found, hip_order=hip_order, **overrides), name=found.name)
@@ -117,7 +125,7 @@ def _expand(values: tuple[tuple[str, str], ...], name: str) -> str:
 
 @functools.cache
 def _makers() -> tuple[str | bytes, ...]:
-    """What turns arguments into a URDF: xacro, its sources, and this module."""
+    """Everything that turns arguments into a URDF: xacro, its sources, and this module."""
     files = (Path(__file__), *sorted(sources().glob("*.xacro")))
     return metadata.version("xacro"), *(file.read_bytes() for file in files)
 

@@ -41,7 +41,7 @@ class DescriptionError(ExoPinError):
 
 
 class UnknownNameError(DescriptionError):
-    """A name that nothing answers to.
+    """A name that does not exist.
 
     Attributes:
         kind: What was looked up, e.g. `"joint"`.

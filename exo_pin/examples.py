@@ -1,4 +1,4 @@
-"""Files of example-robot-data, wherever it is installed; nothing heavy is loaded to find them."""
+"""Files of the package example-robot-data, found without importing it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 @cache
 def located(end: str) -> Path | None:
-    """The file of example-robot-data whose path ends so (from a `/` on); None where there is none."""
+    """The file of example-robot-data whose path ends so (from a `/` on), or None."""
     return next((path for path in _files() if path.as_posix().endswith(f"/{end}")), None)
 
 

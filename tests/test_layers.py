@@ -7,7 +7,7 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parents[1] / "exo_pin"
 FLOORS = [
-    {"errors", "version", "arrays", "physics"},
+    {"errors", "version", "arrays", "physics", "frozen_fields"},
     {"files"},
     {"safe", "cache", "examples"},
     {"anatomy"},
@@ -25,7 +25,7 @@ FLOORS = [
     {"cli"},
     {"__init__", "__main__"},
 ]
-GROUND = {"errors", "arrays", "physics", "files", "cache", "anatomy", "devices"}
+GROUND = {"errors", "arrays", "physics", "frozen_fields", "files", "cache", "anatomy", "devices"}
 FLOOR = {room: k for k, rooms in enumerate(FLOORS) for room in rooms}
 ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "xacro": {"description"},

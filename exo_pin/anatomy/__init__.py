@@ -1,4 +1,4 @@
-"""Names and sizes: joints, feet and sides of the legs, and the body that wears the exoskeleton."""
+"""Anatomy: names of joints, feet and sides, and the sizes and masses of the wearer."""
 
 from exo_pin.anatomy.body import Body, Leg
 from exo_pin.anatomy.names import (

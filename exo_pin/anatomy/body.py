@@ -1,4 +1,4 @@
-"""The body that wears the exoskeleton: sizes, masses and joint ranges, left and right apart."""
+"""`Body`: sizes, masses and joint ranges of the wearer and the device, left and right apart."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from exo_pin.anatomy.human import DEFAULT_MASS, DEFAULT_STATURE
 from exo_pin.anatomy.names import SIDES, Sex, Side
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 from exo_pin.safe import toml_file
 
 _LONGEST_LEG = 0.75  # of the stature; 0.53 is average
@@ -98,7 +99,7 @@ class Body:
         sex: Sex = "male",
         **overrides: Any,
     ) -> Body:
-        """The body of average proportions; `exo_pin.anatomy.tables` names the sources.
+        """The body of average proportions; `exo_pin.anatomy.anthropometry` names the sources.
 
         Args:
             stature: Height of the person [m].
@@ -148,13 +149,12 @@ class Body:
         )
 
     def __post_init__(self) -> None:
-        for name in SIZES:
-            object.__setattr__(self, name, checked(name, getattr(self, name)))
+        set_fields(self, **{name: checked(name, getattr(self, name)) for name in SIZES})
         _check_sex(self.sex)
         if not isinstance(self.wearer, bool):
             raise DescriptionError(f"wearer is {self.wearer!r}; true or false is accepted")
         self._check_proportions()
-        object.__setattr__(self, "limits", MappingProxyType(checked_limits(self.limits)))
+        set_fields(self, limits=MappingProxyType(checked_limits(self.limits)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled by its fields, since a read-only mapping cannot be: for work in other processes."""

@@ -1,4 +1,4 @@
-"""What holds for every person: extreme joint ranges, the knee's stop, mass by stature."""
+"""Human limits and averages: extreme joint ranges, hyperextension of the knee, mass by stature."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DEFAULT_STATURE = 1.75
 DEFAULT_MASS = 70.0
 """Mass of the default person [kg]."""
 
-BODY_MASS_INDEX = DEFAULT_MASS / DEFAULT_STATURE**2
+_BODY_MASS_INDEX = DEFAULT_MASS / DEFAULT_STATURE**2
 """Mass over squared stature [kg/m^2] of a person whose mass is unknown: that of the default person."""
 
 
@@ -45,5 +45,5 @@ HYPEREXTENDED_KNEE = math.radians(-10.0)
 
 
 def usual_mass(stature: float) -> float:
-    """Mass [kg] of a person of this stature [m] by `BODY_MASS_INDEX`."""
-    return BODY_MASS_INDEX * stature**2
+    """Mass [kg] of a person of this stature [m] by `_BODY_MASS_INDEX`."""
+    return _BODY_MASS_INDEX * stature**2

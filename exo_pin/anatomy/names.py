@@ -1,4 +1,4 @@
-"""The names that everything is addressed by: sides, movements, joints, feet and sole corners.
+"""Names: sides, movements, joints, feet, sole corners and other closed vocabularies.
 
 Words from a closed vocabulary have a `Literal` type here, so that type checkers find a wrong one.
 """
@@ -21,7 +21,7 @@ Sex = Literal["male", "female"]
 Speed = Literal["very_slow", "slow", "free", "fast", "very_fast"]
 """A speed of the normal walk (Schwartz 2008)."""
 PelvisMotion = Literal["recorded", "device"]
-"""Who moves the pelvis: the recorded walk, or the device as its own slides allow."""
+"""What moves the pelvis: the recorded walk, or the device as its own slides allow."""
 PassiveJoints = Literal["held", "released"]
 """Whether joints without a motor are held at zero or move freely."""
 SupportStyle = Literal["carried", "still"]

@@ -1,4 +1,4 @@
-"""What each size and mass of a body measures, its unit and its plausible range."""
+"""Sizes and masses of a body: meaning, unit and plausible range of each."""
 
 from __future__ import annotations
 

@@ -52,9 +52,9 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {walk.source}", file=sys.stderr)
     walk = plate_options.struck(args, body, walk)
-    from exo_pin.gait import doubts
+    from exo_pin.gait import implausibilities
 
-    for reason in (*doubts(walk), *trials.doubts(args)):
+    for reason in (*implausibilities(walk), *trials.doubts(args)):
         print(f"warning: {reason}", file=sys.stderr)
     return walk
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
-from exo_pin.anatomy.hip import hip_angles
+from exo_pin.anatomy.hip_cardan_angles import hip_angles
 from exo_pin.arrays import Array
 from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, corners, sole_targets
 from exo_pin.devices import Device

@@ -18,7 +18,7 @@ from exo_pin.devices import Device
 from exo_pin.files import json_number
 from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.phases import masks
-from exo_pin.gait.rigid import angle_of
+from exo_pin.gait.rigid_poses import angle_of
 
 _COMPARED: tuple[Movement, ...] = ("hip_flexion", "knee_flexion")  # movements whose change is reported
 

@@ -1,4 +1,4 @@
-"""Numbers of this package's own where no source gives any: torques, speeds and ranges, all design choices."""
+"""Actuators: default torques, speeds and ranges of the joints where no source gives them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Actuator(NamedTuple):
     velocity: float
 
 
-CHOSEN: Mapping[str, Actuator] = MappingProxyType(
+DEFAULT_ACTUATORS: Mapping[str, Actuator] = MappingProxyType(
     {
         "hip_flexion": Actuator(150.0, 8.0),
         "hip_adduction": Actuator(120.0, 5.0),
@@ -32,7 +32,7 @@ CHOSEN: Mapping[str, Actuator] = MappingProxyType(
 """Torques and speeds where no source gives them, a design choice: above what a 70 kg person's level walking
 at any of Schwartz's (2008) speeds needs; the paper gives none. Toes and slides likewise."""
 
-RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
+ADDED_JOINT_RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         "toe_dorsiflexion": (math.radians(-20.0), math.radians(60.0)),
         "pelvis_forward": (-0.10, 0.10),

@@ -1,4 +1,4 @@
-"""The devices that the paper names, and their like: one record each."""
+"""The catalogue of devices: one record each."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from exo_pin.anatomy.names import JOINTS
-from exo_pin.devices.actuator import CHOSEN, Actuator
+from exo_pin.devices.actuator import DEFAULT_ACTUATORS, Actuator
 from exo_pin.devices.device import Device, both
 from exo_pin.devices.device_file import load
 from exo_pin.errors import FormatError, UnknownNameError
@@ -22,7 +22,7 @@ _TRUNK_PITCH = "The trunk's pitch is left to the hips: it turns about the same a
 
 def _loose(*slides: str) -> Mapping[str, Actuator]:
     """Slides without a motor."""
-    return {slide: CHOSEN[slide]._replace(effort=0.0) for slide in slides}
+    return {slide: DEFAULT_ACTUATORS[slide]._replace(effort=0.0) for slide in slides}
 
 
 EXO12 = Device(
@@ -155,7 +155,7 @@ def find(device: str | Device) -> Device:
     """The device of that name, or of that TOML file; a record is handed back.
 
     Raises:
-        UnknownNameError: There is none of that name.
+        UnknownNameError: There is no device of that name.
         FormatError: The file is no device, or has the name of a known one.
     """
     if isinstance(device, Device):

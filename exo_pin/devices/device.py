@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, Movement
-from exo_pin.devices.actuator import CHOSEN, RANGES, Actuator
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.devices.actuator import ADDED_JOINT_RANGES, DEFAULT_ACTUATORS, Actuator
 from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 
 SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
 """Slides that may carry the pelvis, from the stand outwards; the name is the positive direction."""
@@ -71,19 +72,22 @@ class Device:
             raise DescriptionError(
                 f"device name {self.name!r}: lower-case letters, digits and _ are accepted"
             )
-        for what in ("joints", "passive"):
-            object.__setattr__(self, what, _in_order(getattr(self, what)))
+        set_fields(self, joints=_in_order(self.joints), passive=_in_order(self.passive))
         both = set(self.joints) & set(self.passive)
         if both:
             raise DescriptionError(f"device {self.name}: {min(both)} is driven and passive at once")
         if not self.joints:
             raise DescriptionError(f"device {self.name} drives no joint")
         self._check_pelvis()
-        for what in ("treadmill", "statures"):
-            object.__setattr__(self, what, _span(what, getattr(self, what)))
+        set_fields(
+            self, treadmill=_span("treadmill", self.treadmill), statures=_span("statures", self.statures)
+        )
         complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
-        object.__setattr__(self, "actuators", MappingProxyType(complete))
-        object.__setattr__(self, "ranges", MappingProxyType(_checked_ranges(self.ranges)))
+        set_fields(
+            self,
+            actuators=MappingProxyType(complete),
+            ranges=MappingProxyType(_checked_ranges(self.ranges)),
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled by its fields, since a read-only mapping cannot be: for work in other processes."""
@@ -99,7 +103,7 @@ class Device:
         for name in self.pelvis:
             if name not in SLIDES:
                 raise UnknownNameError("slide", name, SLIDES)
-        object.__setattr__(self, "pelvis", tuple(name for name in SLIDES if name in self.pelvis))
+        set_fields(self, pelvis=tuple(name for name in SLIDES if name in self.pelvis))
 
     @property
     def _movements(self) -> tuple[str, ...]:
@@ -195,11 +199,11 @@ def _in_order(joints: Iterable[str]) -> tuple[str, ...]:
     return tuple(joint for joint in JOINTS if joint in given)
 
 
-def _actuator(movement: Movement, given: Mapping[str, Actuator]) -> Actuator:
+def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
     for name in given:
-        if name not in CHOSEN:
-            raise UnknownNameError("movement", name, CHOSEN)
-    actuator = Actuator(*map(float, given.get(movement, CHOSEN[movement])))
+        if name not in DEFAULT_ACTUATORS:
+            raise UnknownNameError("movement", name, DEFAULT_ACTUATORS)
+    actuator = Actuator(*map(float, given.get(movement, DEFAULT_ACTUATORS[movement])))
     if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf):
         raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
     return actuator
@@ -215,8 +219,8 @@ def _span(what: str, pair: tuple[float, float] | None) -> tuple[float, float] | 
 
 
 def _checked_ranges(given: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    known = {*MOVEMENTS, *RANGES}
-    ranges = dict(RANGES)
+    known = {*MOVEMENTS, *ADDED_JOINT_RANGES}
+    ranges = dict(ADDED_JOINT_RANGES)
     for name, pair in given.items():
         if name not in known:
             raise UnknownNameError("movement", name, sorted(known))

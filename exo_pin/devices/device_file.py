@@ -1,4 +1,4 @@
-"""A device of one's own from a TOML file."""
+"""Device files: a device of one's own in TOML."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, Movement
-from exo_pin.devices.actuator import CHOSEN, Actuator
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.devices.actuator import DEFAULT_ACTUATORS, Actuator
 from exo_pin.devices.device import Device
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.safe import toml_file
@@ -37,7 +37,7 @@ def load(path: str | Path) -> Device:
 
     `name`, `joints` and `source` are needed; a joint without its side means both. Torques are `effort_nm`
     [N m] and `velocity_rad_s` [rad/s] (slides: `effort_n`, `velocity_m_s`); what is left out is the choice of
-    `exo_pin.devices.choices`.
+    `exo_pin.devices.actuator`.
 
     Raises:
         FormatError: The file is no TOML, or a name or value in it is not accepted.
@@ -108,16 +108,18 @@ def _with_sides(names: list[str]) -> tuple[str, ...]:
     return tuple(spread)
 
 
-def _actuator(movement: Movement, numbers: object) -> Actuator:
-    if movement not in CHOSEN:
-        raise UnknownNameError("movement", movement, CHOSEN)
+def _actuator(movement: str, numbers: object) -> Actuator:
+    if movement not in DEFAULT_ACTUATORS:
+        raise UnknownNameError("movement", movement, DEFAULT_ACTUATORS)
     slides = movement.startswith("pelvis_")
     names = ("effort_n", "velocity_m_s") if slides else ("effort_nm", "velocity_rad_s")
     if not isinstance(numbers, dict) or not set(numbers) <= set(names):
         raise DescriptionError(f"actuators.{movement}: {' and '.join(names)} are accepted")
     if not all(type(x) in (int, float) for x in numbers.values()):
         raise DescriptionError(f"actuators.{movement}: {numbers} must be numbers")
-    effort, velocity = (numbers.get(name, own) for name, own in zip(names, CHOSEN[movement], strict=True))
+    effort, velocity = (
+        numbers.get(name, own) for name, own in zip(names, DEFAULT_ACTUATORS[movement], strict=True)
+    )
     return Actuator(float(effort), float(velocity))
 
 

@@ -1,4 +1,4 @@
-"""The witness: forward kinematics by hand in NumPy, twice, without Pinocchio and without the URDF.
+"""Reference forward kinematics in NumPy, derived twice, without Pinocchio and without the URDF.
 
 1. `recursion`: the paper's Eq. (1) to (6) over its family tree of links, Rodrigues' formula for each joint.
 2. `modified_dh`: Craig's modified Denavit-Hartenberg table of each leg.

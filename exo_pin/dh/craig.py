@@ -72,6 +72,11 @@ _TABLES: dict[tuple[str, str], tuple[tuple[int, str, int, str], ...]] = {
 def table(body: Body, side: Side, *, hip_order: HipOrder = "clinical") -> list[DHRow]:
     """Craig's modified D-H table of one leg of this body; frame 0 lies at the hip centre.
 
+    Args:
+        body: Sizes of the exoskeleton.
+        side: `"left"` or `"right"`.
+        hip_order: Order of the hip joints.
+
     Raises:
         UnknownNameError: Side or hip order is unknown.
     """
@@ -85,7 +90,16 @@ def table(body: Body, side: Side, *, hip_order: HipOrder = "clinical") -> list[D
 
 
 def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical") -> dict[str, Array]:
-    """Poses by Craig's table; arguments and result as those of `recursion`."""
+    """Poses by Craig's table, relative to the pelvis.
+
+    Args:
+        body: Sizes of the exoskeleton.
+        q: Joint angles (..., 12) [rad]: left, then right leg, each in the order of `chain(hip_order)`.
+        hip_order: Order of the hip joints.
+
+    Returns:
+        T_pelvis_link (..., 4, 4) by joint name, and by `left_foot` and `right_foot` on the soles.
+    """
     q = np.asarray(q, dtype=float)
     poses: dict[str, Array] = {}
     for k, side in enumerate(SIDES):
@@ -98,7 +112,13 @@ def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical
 
 
 def ends(body: Body, side: Side, *, hip_order: HipOrder = "clinical") -> tuple[Array, Array]:
-    """What stands before and behind the table: T_pelvis_0 and T_6_foot (4, 4), the frame on the sole."""
+    """The constant transforms before and behind the table: T_pelvis_0 and T_6_foot (4, 4), to the sole.
+
+    Args:
+        body: Sizes of the exoskeleton.
+        side: `"left"` or `"right"`.
+        hip_order: Order of the hip joints.
+    """
     rows = table(body, side, hip_order=hip_order)
     last = _product(body, side, rows, np.zeros(6), hip_order)[-1]
     sole = _places(body, side)[-1].copy()

@@ -1,4 +1,4 @@
-"""The witness for devices that lock some of the 12 joints, slide the pelvis or have toes."""
+"""Reference kinematics of devices that lock some of the 12 joints, slide the pelvis or have toes."""
 
 from __future__ import annotations
 

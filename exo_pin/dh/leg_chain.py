@@ -1,4 +1,4 @@
-"""What both witnesses know of a leg: the order of its joints and where the sole is."""
+"""The leg as a serial chain: order of its joints, and the sole frame under the ankle."""
 
 from __future__ import annotations
 

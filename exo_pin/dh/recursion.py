@@ -1,4 +1,4 @@
-"""The paper's recursion, Eq. (1) to (6), over its family tree of links."""
+"""Recursive forward kinematics over a tree of links: the paper's Eq. (1) to (6), Rodrigues' formula."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from exo_pin.anatomy.names import SIDES, HipOrder
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
-RIGHT_AXES = {
+_RIGHT_AXES = {
     "hip_flexion": (0.0, -1.0, 0.0),
     "hip_adduction": (1.0, 0.0, 0.0),
     "hip_rotation": (0.0, 0.0, 1.0),
@@ -44,7 +44,7 @@ def tree(body: Body, hip_order: HipOrder = "clinical") -> list[Link]:
         }
         mother = "pelvis"
         for i, movement in enumerate(chain(hip_order)):
-            x, y, z = RIGHT_AXES[movement]
+            x, y, z = _RIGHT_AXES[movement]
             axis = np.array([-s * x, y, -s * z])
             name = f"{side}_{movement}"
             links.append(Link(name, mother, np.array(offsets.get(i, (0.0, 0.0, 0.0))), axis))

@@ -12,8 +12,8 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.curves import at_phase
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
+from exo_pin.gait.time_series import at_phase
 
 _LARGEST_WARP = 0.9
 """Largest relative change of a phase's rate by the time warp; at 1 the phase would run backwards."""
@@ -42,10 +42,10 @@ def blended(first: Gait, second: Gait, *, share: float = 0.5) -> Gait:
     T = (1 - share) * first.duration + share * second.duration
     phase = np.arange(n) / n - pair.start
     q, base = pair.mixed(phase, np.full(n, share))
-    events = [
+    events = tuple(
         dataclasses.replace(event, time=(pair.phase(event, share) + pair.start) % 1 * T)
         for event in (first if share < 0.5 else second).events
-    ]
+    )
     source = f"{first.source}; blended {share:g} with ({second.source})"
     return Gait(T * np.arange(n) / n, q, base=base, events=events, periodic=True, source=source)
 
@@ -104,10 +104,10 @@ def transitioned(
     for _ in range(_ITERATIONS):  # Newton's method: the clock is smooth and strictly increasing
         phase = np.clip(phase - (clock(phase) - time) / (T[0] + (T[1] - T[0]) * share(phase)), 0, total)
     q, base = pair.mixed(phase, share(phase))
-    events = _events(pair, share, clock, total)
+    events = tuple(event for event in _events(pair, share, clock, total) if event.time <= end)
     length = f"{over:g} cycles" if seconds is None else f"{seconds:g} s"
     source = f"{first.source}; over within {length} to ({second.source})"
-    return Gait(time, q, base=base, events=[e for e in events if e.time <= end], source=source)
+    return Gait(time, q, base=base, events=events, source=source)
 
 
 class _Pair(NamedTuple):

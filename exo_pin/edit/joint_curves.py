@@ -12,7 +12,7 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
 
 _RAMP_STEP = 0.01
 """Largest time between samples of a ramp [s]; the walk's own where that is smaller."""
@@ -164,7 +164,7 @@ def _along(walk: Gait, time: Array, phase: Array) -> Gait:
     inside = [event for event in walk.events if phase[0] <= event.time <= phase[-1]]
     strictly = 1e-12 * np.arange(len(phase))  # so that it can be inverted
     grown = np.maximum.accumulate(phase + strictly)
-    events = [dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside]
+    events = tuple(dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside)
     return Gait(time, q, base=base, events=events, source=walk.source)
 
 

@@ -15,8 +15,8 @@ from exo_pin.demand import ACCELERATION_LIMIT
 from exo_pin.edit.pelvis_drop import drop, smoothed
 from exo_pin.errors import ConvergenceError, GaitError
 from exo_pin.gait import Gait
-from exo_pin.gait.curves import runs
 from exo_pin.gait.heading import headings
+from exo_pin.gait.time_series import runs
 from exo_pin.kinematics import events, poses
 from exo_pin.kinematics.resting_stance import travel
 from exo_pin.robot import Robot

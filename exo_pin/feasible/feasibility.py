@@ -15,8 +15,8 @@ from exo_pin.devices import SLIDES
 from exo_pin.feasible.collision import Nearest
 from exo_pin.feasible.device_fit import Fit
 from exo_pin.gait import Gait
-from exo_pin.gait.curves import runs
 from exo_pin.gait.phases import PHASES, percent
+from exo_pin.gait.time_series import runs
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
 

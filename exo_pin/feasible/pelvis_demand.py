@@ -8,8 +8,8 @@ from exo_pin.arrays import Array
 from exo_pin.demand import JointDemand, PeakDemand, RangeDemand
 from exo_pin.devices import SLIDES
 from exo_pin.gait import Gait
-from exo_pin.gait.curves import derivative
-from exo_pin.gait.rigid import angle_of
+from exo_pin.gait.rigid_poses import angle_of
+from exo_pin.gait.time_series import derivative
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot
 

@@ -1,15 +1,15 @@
-"""A walk as data: angles over time, contact events, cycles and their numbers, the normative walk."""
+"""Gait data: angles over time, events, cycles, spatiotemporal parameters, reference values."""
 
 from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.event import EVENT_KINDS, Event
-from exo_pin.gait.events import zeni
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
-from exo_pin.gait.norms import Norm, against_normal, normal
-from exo_pin.gait.plausibility import doubts
+from exo_pin.gait.plausibility import implausibilities
+from exo_pin.gait.reference_values import Norm, against_normal, normal
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
 from exo_pin.gait.strides import Stride, side_with_more_strides, strides
 from exo_pin.gait.torques import Torques
+from exo_pin.gait.zeni_method import zeni
 
 __all__ = [
     "EVENT_KINDS",
@@ -23,7 +23,7 @@ __all__ = [
     "Torques",
     "against_normal",
     "cycles",
-    "doubts",
+    "implausibilities",
     "normal",
     "normative_gait",
     "normative_sd",

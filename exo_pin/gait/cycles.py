@@ -1,4 +1,4 @@
-"""A walk cut into its cycles, each brought to 101 points: mean, spread, and cycles that stand out."""
+"""Gait cycles: a walk cut at heel strikes, each cycle at 101 points, with mean, spread and outliers."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from functools import cached_property
 import numpy as np
 
 from exo_pin.anatomy import SIDES
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import curves
+from exo_pin.gait import time_series
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.heading import mean_heading
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.validation import read_only
 
-POINTS = 101
+CYCLE_POINTS = 101
 """0, 1, ... 100 % of the cycle."""
 
-ODD = 3.0
-"""A cycle that lies this many times further from the median cycle than cycles usually do stands out ..."""
+_OUTLIER_FACTOR = 3.0
+"""An outlier lies this many times further from the median cycle than cycles usually do ..."""
 
-ODD_ANGLE = np.radians(3.0)
-"""... if it is also this far off [rad, rms over cycle and joints]."""
+_OUTLIER_ANGLE = np.radians(3.0)
+"""... and is at least this far off [rad, rms over cycle and joints]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ class Cycles:
     duration: Array
     skipped: tuple[Stride, ...] = ()
     base: Array | None = None
-    contacts: Mapping[tuple[str, str], Array] = field(default_factory=dict)
+    contacts: Mapping[tuple[EventKind, Side], Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Number of cycles k."""
@@ -80,7 +80,7 @@ class Cycles:
         if len(self) < 3:
             return ()
         away = np.sqrt(((self.q - np.median(self.q, axis=0)) ** 2).mean(axis=(1, 2)))
-        odd = (away > ODD * np.median(away)) & (away > ODD_ANGLE)
+        odd = (away > _OUTLIER_FACTOR * np.median(away)) & (away > _OUTLIER_ANGLE)
         return tuple(int(k) for k in np.flatnonzero(odd))
 
     def average(self, source: str = "") -> Gait:
@@ -92,17 +92,22 @@ class Cycles:
         base = None if self.base is None else nearest_pose(_closed(self.base.mean(axis=0)))
         T = float(self.duration.mean())
         source = source or f"mean of {len(self)} {self.side} cycle{'s' * (len(self) != 1)}"
-        events = [
+        events = tuple(
             Event(T * float(phases.mean()), kind, side, f"mean of {len(phases)}")
             for (kind, side), phases in self.contacts.items()
-        ]
+        )
         return Gait(T * np.arange(len(q)) / len(q), q, base=base, events=events, periodic=True, source=source)
 
 
-def cycles(gait: Gait, side: Side = "left", *, points: int = POINTS) -> Cycles:
+def cycles(gait: Gait, side: Side = "left", *, points: int = CYCLE_POINTS) -> Cycles:
     """Cut a walk at the heel strikes of one foot; every cycle gets the same number of points.
 
-    A periodic gait is one cycle and more: it is followed around its end.
+    A periodic gait is followed around its end, so it has a cycle for every heel strike of the foot.
+
+    Args:
+        gait: A walk with events.
+        side: Whose heel strikes cut it.
+        points: Number of points of each cycle, both ends included.
 
     Raises:
         GaitError: Fewer than two heel strikes of that foot, or no stride of a walk between them.
@@ -115,10 +120,10 @@ def cycles(gait: Gait, side: Side = "left", *, points: int = POINTS) -> Cycles:
     if not kept:
         raise GaitError(f"no gait cycles found: {_why_none(walk, spans, side)}")
     moments = np.concatenate([np.linspace(span.start, span.end, points) for span in kept])
-    q = curves.resampled(walk.time, walk.q, moments, periodic=False).reshape(len(kept), points, -1)
+    q = time_series.resampled(walk.time, walk.q, moments, periodic=False).reshape(len(kept), points, -1)
     base = None
     if walk.base is not None:
-        flat = curves.resampled(walk.time, walk.base.reshape(-1, 16), moments, periodic=False)
+        flat = time_series.resampled(walk.time, walk.base.reshape(-1, 16), moments, periodic=False)
         base = np.array([_on_the_spot(cycle) for cycle in flat.reshape(len(kept), points, 16)])
     start, duration = (np.array([getattr(span, name) for span in kept]) for name in ("start", "duration"))
     skipped = tuple(span for span in spans if span.why)
@@ -144,9 +149,9 @@ def _on_the_spot(flat: Array) -> Array:
     return base
 
 
-def _contacts(walk: Gait, spans: Sequence[Stride]) -> dict[tuple[str, str], Array]:
+def _contacts(walk: Gait, spans: Sequence[Stride]) -> dict[tuple[EventKind, Side], Array]:
     """Phases of the events of each kind and side, from the cycles that have one of them."""
-    found: dict[tuple[str, str], Array] = {}
+    found: dict[tuple[EventKind, Side], Array] = {}
     for side in SIDES:
         for kind in EVENT_KINDS:
             times = np.array([e.time for e in walk.events if (e.kind, e.side) == (kind, side)])
@@ -164,7 +169,7 @@ def _closed(y: Array) -> Array:
 
 
 def _why_none(walk: Gait, spans: tuple[Stride, ...], side: Side) -> str:
-    """What speaks against every stride."""
+    """The objection to the first stride, or how many heel strikes there are."""
     if spans:
         return spans[0].why
     count = sum(event.side == side and event.kind == "heel_strike" for event in walk.events)

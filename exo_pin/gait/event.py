@@ -1,4 +1,4 @@
-"""Contact events of the feet, and which foot is on the ground between them."""
+"""Gait events: heel strikes and toe-offs, and the stance of a foot between them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 
-EVENT_KINDS = ("heel_strike", "toe_off")
-"""What can happen to a foot: it meets the ground with the heel, or leaves it with the toe."""
+EVENT_KINDS: tuple[EventKind, ...] = ("heel_strike", "toe_off")
+"""Initial contact of a foot with the ground, and the end of its contact."""
 
 SAME_TIME = 1e-9
 """Two times closer than this are the same [s]: an event so close to a sample lies on it."""
@@ -32,7 +33,7 @@ class Event:
         time: When it happens, on the gait's own time axis [s].
         kind: `"heel_strike"` or `"toe_off"`.
         side: `"left"` or `"right"`.
-        source: Who says so, e.g. `"force plate"`.
+        source: Origin of the time, e.g. `"force plate"`.
 
     Raises:
         GaitError: If the time is not finite, or kind or side are unknown.
@@ -46,7 +47,7 @@ class Event:
     def __post_init__(self) -> None:
         if not np.isfinite(self.time):
             raise GaitError(f"event {self.kind} {self.side}: time is {self.time}, expected finite seconds")
-        object.__setattr__(self, "time", float(self.time))  # numpy scalars would print as np.float64(...)
+        set_fields(self, time=float(self.time))  # numpy scalars would print as np.float64(...)
         for what, value, known in (("kind", self.kind, EVENT_KINDS), ("side", self.side, SIDES)):
             if value not in known:
                 choices = " or ".join(map(repr, known))
@@ -54,7 +55,13 @@ class Event:
 
 
 def between(times: Sequence[float], start: float, end: float) -> Sequence[float]:
-    """Those of the sorted times that lie between two others, which do not count."""
+    """The times strictly between two moments.
+
+    Args:
+        times: Sorted [s].
+        start: The moment before [s].
+        end: The moment after [s].
+    """
     return times[bisect_right(times, start) : bisect_left(times, end)]
 
 
@@ -65,7 +72,7 @@ def stance(time: Array, events: Sequence[Event], side: Side, *, periodic: bool) 
         time: `(n,)` [s].
         events: Sorted by time.
         side: `"left"` or `"right"`.
-        periodic: Whether the last event of the cycle also tells what is before the first.
+        periodic: Whether the last event of the cycle also precedes the first.
 
     Returns:
         `(n,)` contact.

@@ -1,4 +1,4 @@
-"""Heel strikes and toe-offs from the vertical force under a foot."""
+"""Contacts of a foot with a force plate, from the vertical ground reaction force."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.curves import runs
+from exo_pin.gait.time_series import runs
 from exo_pin.gait.validation import check_time, frozen
 
-SOURCE = "force plate"
-THRESHOLD = 20.0
-"""Somebody stands on the plate above this [N]: the laboratories' habit."""
+FORCE_PLATE = "force plate"
+_THRESHOLD = 20.0
+"""Vertical force of a contact [N]: the laboratories' usual value."""
 
-SHORTEST = 0.05
+_SHORTEST_CONTACT = 0.05
 """A contact, or a gap between contacts, that is shorter [s] is noise of the plate."""
 
 
@@ -36,7 +36,7 @@ class Contact(NamedTuple):
     stop: int
 
 
-def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = THRESHOLD) -> tuple[Contact, ...]:
+def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = _THRESHOLD) -> tuple[Contact, ...]:
     """Contacts with a force plate.
 
     Args:
@@ -55,7 +55,7 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = THRESHO
     if force.shape != t.shape or not np.isfinite(force).all():
         raise GaitError(f"vertical force: expected finite numbers ({len(t)},) [N], not {force.shape}")
     loaded = _joined(t, runs(force > threshold))
-    loaded = [run for run in loaded if t[run[1] - 1] - t[run[0]] >= SHORTEST]
+    loaded = [run for run in loaded if t[run[1] - 1] - t[run[0]] >= _SHORTEST_CONTACT]
     return tuple(
         Contact(
             _crossing(t, force, start, threshold) if start else None,
@@ -71,7 +71,7 @@ def _joined(time: Array, spans: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """Spans with too short a gap between them are one."""
     out: list[tuple[int, int]] = []
     for start, stop in spans:
-        if out and time[start] - time[out[-1][1] - 1] < SHORTEST:
+        if out and time[start] - time[out[-1][1] - 1] < _SHORTEST_CONTACT:
             out[-1] = (out[-1][0], stop)
         else:
             out.append((start, stop))

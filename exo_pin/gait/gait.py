@@ -1,19 +1,18 @@
-"""A walk as data: joint angles over time, the pelvis's motion and the foot contacts."""
+"""`Gait`: joint angles over time, the pelvis's motion and the foot contacts of a walk."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
-from exo_pin.gait import curves, rigid
+from exo_pin.frozen_fields import set_fields
+from exo_pin.gait import rigid_poses, time_series
 from exo_pin.gait.event import Event, stance
 from exo_pin.gait.validation import (
     check_angles,
@@ -25,19 +24,21 @@ from exo_pin.gait.validation import (
     read_only,
 )
 
-MOST_SAMPLES = 1_000_000
+_MOST_SAMPLES = 1_000_000
 """Of a walk that is sampled anew: hours; bounds memory."""
 
-GRID = 1e-6
+_ON_GRID = 1e-6
 """A sample this little before the recording's start, in samples, is on it."""
 
 
-@dataclass(frozen=True, eq=False, init=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Gait:
     """Joint angles over time, in the order of `JOINTS` and the clinical hip convention.
 
     A periodic gait stores [0, T): the sample at T is the sample at 0 and is never stored. Its base returns
     to the same place after every cycle (walking on the spot, as on a treadmill).
+
+    Array-likes are accepted and copied; the arrays of a gait are read-only.
 
     Attributes:
         time: `(n,)` strictly increasing [s]; a periodic gait starts at 0 and is evenly sampled.
@@ -53,32 +54,26 @@ class Gait:
 
     time: Array
     q: Array
+    _: KW_ONLY
     base: Array | None = None
     events: tuple[Event, ...] = ()
     periodic: bool = False
     source: str = ""
 
-    def __init__(  # written out: numpy's array-likes go in, read-only arrays come out
-        self,
-        time: ArrayLike,
-        q: ArrayLike,
-        *,
-        base: ArrayLike | None = None,
-        events: Iterable[Event] = (),
-        periodic: bool = False,
-        source: str = "",
-    ) -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(time, "time"))
-        put(self, "q", frozen(q, "q"))
-        put(self, "base", None if base is None else frozen(base, "base"))
-        put(self, "periodic", bool(periodic))
-        put(self, "source", str(source))
+    def __post_init__(self) -> None:
+        set_fields(
+            self,
+            time=frozen(self.time, "time"),
+            q=frozen(self.q, "q"),
+            base=None if self.base is None else frozen(self.base, "base"),
+            periodic=bool(self.periodic),
+            source=str(self.source),
+        )
         check_time(self.time, self.periodic)
         check_angles(self.q, len(self.time))
         if self.base is not None:
             check_poses(self.base, len(self.time), "base")
-        put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
+        set_fields(self, events=tuple(sorted(self.events, key=lambda event: event.time)))
         check_events(self.events, self.time, self.periodic)
 
     def __repr__(self) -> str:
@@ -102,12 +97,12 @@ class Gait:
 
         Periodic gaits: exact for band-limited curves (spectral); else second-order differences.
         """
-        return read_only(curves.derivative(self.time, self.q, 1, self._period))
+        return read_only(time_series.derivative(self.time, self.q, 1, self._period))
 
     @cached_property
     def ddq(self) -> Array:
         """`(n, 12)` joint accelerations [rad/s^2], made as `dq` is; it amplifies noise: filter recordings."""
-        return read_only(curves.derivative(self.time, self.q, 2, self._period))
+        return read_only(time_series.derivative(self.time, self.q, 2, self._period))
 
     @cached_property
     def base_velocity(self) -> Array | None:
@@ -115,8 +110,8 @@ class Gait:
         if self.base is None:
             return None
         flat = self.base.reshape(len(self), 16)
-        dT = curves.derivative(self.time, flat, 1, self._period).reshape(-1, 4, 4)
-        omega = rigid.angular_velocity(self.base[:, :3, :3], dT[:, :3, :3])
+        dT = time_series.derivative(self.time, flat, 1, self._period).reshape(-1, 4, 4)
+        omega = rigid_poses.angular_velocity(self.base[:, :3, :3], dT[:, :3, :3])
         return read_only(np.hstack([dT[:, :3, 3], omega]))
 
     @cached_property
@@ -124,8 +119,8 @@ class Gait:
         """`(n, 6)` acceleration of the pelvis, linear first, world axes [m/s^2, rad/s^2], or None."""
         if self.base is None or self.base_velocity is None:
             return None
-        linear = curves.derivative(self.time, self.base[:, :3, 3], 2, self._period)
-        angular = curves.derivative(self.time, self.base_velocity[:, 3:], 1, self._period)
+        linear = time_series.derivative(self.time, self.base[:, :3, 3], 2, self._period)
+        angular = time_series.derivative(self.time, self.base_velocity[:, 3:], 1, self._period)
         return read_only(np.hstack([linear, angular]))
 
     def resampled(self, n: int) -> Gait:
@@ -152,11 +147,11 @@ class Gait:
         Raises:
             GaitError: That would be fewer than 2 samples, or more than a million.
         """
-        if not (np.isfinite(rate) and 2 <= self.duration * rate + 1 <= MOST_SAMPLES):
-            raise GaitError(f"sampled at {rate:g} Hz: 2 to {MOST_SAMPLES} samples are accepted")
+        if not (np.isfinite(rate) and 2 <= self.duration * rate + 1 <= _MOST_SAMPLES):
+            raise GaitError(f"sampled at {rate:g} Hz: 2 to {_MOST_SAMPLES} samples are accepted")
         if self.periodic:
             return self.resampled(max(round(self.duration * rate), 2))
-        first, last = np.ceil(self.time[0] * rate - GRID), np.floor(self.time[-1] * rate + GRID)
+        first, last = np.ceil(self.time[0] * rate - _ON_GRID), np.floor(self.time[-1] * rate + _ON_GRID)
         time = np.clip(np.arange(first, last + 1) / rate, self.time[0], self.time[-1])
         if len(time) < 2:
             raise GaitError(f"sampled at {rate:g} Hz: no two samples lie within the recording")
@@ -165,11 +160,11 @@ class Gait:
 
     def _at(self, time: Array) -> Gait:
         """The same walk at other times, for periodic gaits those of an evenly divided cycle."""
-        q = curves.resampled(self.time, self.q, time, self.periodic)
+        q = time_series.resampled(self.time, self.q, time, self.periodic)
         base = None
         if self.base is not None:
-            flat = curves.resampled(self.time, self.base.reshape(-1, 16), time, self.periodic)
-            base = rigid.nearest_pose(flat.reshape(len(time), 4, 4))
+            flat = time_series.resampled(self.time, self.base.reshape(-1, 16), time, self.periodic)
+            base = rigid_poses.nearest_pose(flat.reshape(len(time), 4, 4))
         return replace(self, time=time, q=q, base=base)
 
     def repeated(self, k: int) -> Gait:

@@ -8,7 +8,7 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 
 _LEAST_MEAN = 0.5
 """Length of the mean of the unit headings below which a walk has no heading: it turns around."""

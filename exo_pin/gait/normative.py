@@ -1,4 +1,4 @@
-"""The normative walk at five speeds: smooth, periodic, and with the pelvis's own turning."""
+"""The normative walk at five speeds: periodic Fourier series of joint angles and pelvis rotation."""
 
 from __future__ import annotations
 
@@ -7,19 +7,20 @@ import math
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, Body
+from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import schwartz2008_sd as spread
 from exo_pin.gait.event import Event
 from exo_pin.gait.gait import Gait
-from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
+from exo_pin.gait.schwartz2008 import MEAN_ANGLES, MEAN_ANKLE_INVERSION, MEAN_HARMONICS, TIMING
+from exo_pin.gait.schwartz2008_sd import SD_ANGLES, SD_ANKLE_INVERSION
 from exo_pin.physics import GRAVITY
 
-SPEEDS = tuple(ANGLES)
+SPEEDS = tuple(MEAN_ANGLES)
 """`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
 
-SOURCE = "Schwartz 2008"
-LEG_LENGTHS = (0.1, 2.5)
+_SOURCE = "Schwartz 2008"
+_LEG_LENGTHS = (0.1, 2.5)
 """Shortest and longest leg [m] that a stride time is given for: what a `Body` can be."""
 
 
@@ -50,13 +51,13 @@ def normative_gait(speed: str = "free", *, leg_length: float | None = None, samp
         UnknownNameError: If there is no such speed.
         GaitError: If the leg length is implausible or there are too few samples.
     """
-    if speed not in ANGLES:
+    if speed not in MEAN_ANGLES:
         raise UnknownNameError("speed", speed, SPEEDS)
     length = Body.from_stature().leg_length if leg_length is None else leg_length
-    if not LEG_LENGTHS[0] <= length <= LEG_LENGTHS[1]:
-        raise GaitError(f"leg_length = {length} m: expected {LEG_LENGTHS[0]} to {LEG_LENGTHS[1]} m")
-    if samples != int(samples) or samples <= 2 * HARMONICS:
-        raise GaitError(f"samples = {samples}: a whole number from {2 * HARMONICS + 1} on is accepted")
+    if not _LEG_LENGTHS[0] <= length <= _LEG_LENGTHS[1]:
+        raise GaitError(f"leg_length = {length} m: expected {_LEG_LENGTHS[0]} to {_LEG_LENGTHS[1]} m")
+    if samples != int(samples) or samples <= 2 * MEAN_HARMONICS:
+        raise GaitError(f"samples = {samples}: a whole number from {2 * MEAN_HARMONICS + 1} on is accepted")
     stride = 2 / (TIMING[speed]["cadence"] * math.sqrt(GRAVITY / length))
     phase = np.arange(samples) / samples
     return Gait(
@@ -65,7 +66,7 @@ def normative_gait(speed: str = "free", *, leg_length: float | None = None, samp
         base=_pelvis(speed, phase, length),
         events=_events(speed, stride),
         periodic=True,
-        source=f"{SOURCE}, {speed}; ankle inversion: Oxford foot model",
+        source=f"{_SOURCE}, {speed}; ankle inversion: Oxford foot model",
     )
 
 
@@ -87,11 +88,11 @@ def normative_sd(speed: str = "free", *, samples: int = 100) -> Array:
         UnknownNameError: If there is no such speed.
         GaitError: If there is no sample.
     """
-    if speed not in ANGLES:
+    if speed not in MEAN_ANGLES:
         raise UnknownNameError("speed", speed, SPEEDS)
     if samples < 1:
         raise GaitError(f"samples = {samples}: at least 1 is accepted")
-    curves = {**spread.ANGLES[speed], "ankle_inversion": spread.ANKLE_INVERSION}
+    curves = {**SD_ANGLES[speed], "ankle_inversion": SD_ANKLE_INVERSION}
     phase = np.arange(samples) / samples
     legs = [_series(curves[movement], phase - late) for late in (0.0, 0.5) for movement in MOVEMENTS]
     return np.stack(legs, axis=1)
@@ -107,14 +108,14 @@ def _series(coefficients: tuple[float, ...], phase: Array) -> Array:
 
 def _leg(speed: str, phase: Array) -> Array:
     """`(n, 6)` joint angles of a leg that strikes the ground at phase 0."""
-    curves = {**ANGLES[speed], "ankle_inversion": ANKLE_INVERSION}
+    curves = {**MEAN_ANGLES[speed], "ankle_inversion": MEAN_ANKLE_INVERSION}
     return np.stack([_series(curves[movement], phase) for movement in MOVEMENTS], axis=1)
 
 
 def _pelvis(speed: str, phase: Array, height: float) -> Array:
     """`(n, 4, 4)` poses: tilt forward about y, then left side up about x, then left side forward about -z."""
     tilt, obliquity, rotation = (
-        _series(ANGLES[speed][f"pelvis_{name}"], phase) for name in ("tilt", "obliquity", "rotation")
+        _series(MEAN_ANGLES[speed][f"pelvis_{name}"], phase) for name in ("tilt", "obliquity", "rotation")
     )
     base = np.tile(np.eye(4), (len(phase), 1, 1))
     base[:, :3, :3] = _turns(1, tilt) @ _turns(0, obliquity) @ _turns(2, -rotation)
@@ -132,12 +133,12 @@ def _turns(axis: int, angle: Array) -> Array:
     return R
 
 
-def _events(speed: str, stride: float) -> list[Event]:
+def _events(speed: str, stride: float) -> tuple[Event, ...]:
     at = TIMING[speed]
-    moments = (
+    moments: tuple[tuple[float, EventKind, Side], ...] = (
         (0.0, "heel_strike", "left"),
         (at["opposite_off"], "toe_off", "right"),
         (at["opposite_contact"], "heel_strike", "right"),
         (at["foot_off"], "toe_off", "left"),
     )
-    return [Event(stride * percent / 100, kind, side, SOURCE) for percent, kind, side in moments]
+    return tuple(Event(stride * percent / 100, kind, side, _SOURCE) for percent, kind, side in moments)

@@ -1,4 +1,4 @@
-"""The phases of a foot's own gait cycle, told by its heel strikes and toe-offs."""
+"""Phases of the gait cycle of a foot (Perry 1992), from its heel strikes and toe-offs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether angles look like those of a walk: signs, presets and units that were probably mistaken."""
+"""Plausibility of a walk's angles: signs, presets and units that were probably mistaken."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
 
-LONG = 0.3
-"""Part of the samples that is long."""
+_LONG_SHARE = 0.3
+"""Part of the samples that is a long time."""
 
-NOTHING = np.radians(3.0)
+_LEAST_MOTION = np.radians(3.0)
 """In a walk some joint moves more than this [rad]; less is standing, or degrees converted twice."""
 
-SLOWEST = 0.2
+_LONGEST_SAMPLE_STEP = 0.2
 """No recording of a walk has its samples further apart than this [s]: 5 Hz, a few per step."""
 
 
-def doubts(gait: Gait) -> tuple[str, ...]:
-    """Reasons to doubt that the angles were read with the right signs and units; none for a usual walk.
+def implausibilities(gait: Gait) -> tuple[str, ...]:
+    """What is implausible about the signs, units and times of a walk; nothing for a usual walk.
 
-    Each reason says what was found, for what part of the walk, and what is probably wrong.
+    Each text names the finding, the part of the walk that has it, and the probable mistake.
     """
     reasons = [_backwards(gait.q, side) for side in SIDES]
-    if np.ptp(gait.q, axis=0).max() < NOTHING:
+    if np.ptp(gait.q, axis=0).max() < _LEAST_MOTION:
         moved = np.degrees(np.ptp(gait.q, axis=0).max())
         reasons.append(f"no joint moves more than {moved:.1f} deg: standing, or units?")
     reasons += [_impossible(gait.q[:, k], joint) for k, joint in enumerate(JOINTS)]
@@ -36,13 +36,13 @@ def doubts(gait: Gait) -> tuple[str, ...]:
 
 def _sparse(time: Array) -> str:
     apart = float(np.median(np.diff(time)))
-    return f"samples are {apart:.3g} s apart: is the time in seconds?" if apart > SLOWEST else ""
+    return f"samples are {apart:.3g} s apart: is the time in seconds?" if apart > _LONGEST_SAMPLE_STEP else ""
 
 
 def _backwards(q: Array, side: Side) -> str:
     knee = q[:, JOINTS.index(f"{side}_knee_flexion")]
     share = float((knee < HYPEREXTENDED_KNEE).mean())
-    if share < LONG:
+    if share < _LONG_SHARE:
         return ""
     return f"{side} knee bends backwards for {100 * share:.0f} % of the cycle: sign or preset?"
 

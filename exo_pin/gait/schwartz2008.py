@@ -8,7 +8,7 @@ means of 51 to 82 children at five speeds. Ankle inversion: hindfoot against tib
 
 # The formatter would put every number on its own line.
 # fmt: off
-HARMONICS = 8
+MEAN_HARMONICS = 8
 
 TIMING: dict[str, dict[str, float]] = {
     "very_slow": {"cadence": 0.3372, "foot_off": 68.0, "opposite_off": 18.0, "opposite_contact": 50.0},
@@ -19,14 +19,14 @@ TIMING: dict[str, dict[str, float]] = {
 }
 """Cadence 2 / (stride time * sqrt(g / leg length)); events in percent of the cycle."""
 
-ANKLE_INVERSION: tuple[float, ...] = (
+MEAN_ANKLE_INVERSION: tuple[float, ...] = (
     -1.3405,
     -1.0349, 1.1494, 0.3413, -0.1468, 0.2404, -0.1377, 0.0450, -0.0106,
     -3.7326, 1.6619, -1.5720, 0.1821, -0.1542, -0.0066, -0.0976, -0.1026,
 )
 """Mean, cosines 1..8, sines 1..8 [deg]; the same at every speed."""
 
-ANGLES: dict[str, dict[str, tuple[float, ...]]] = {
+MEAN_ANGLES: dict[str, dict[str, tuple[float, ...]]] = {
     "very_slow": {
         "pelvis_tilt": (
             11.9821,

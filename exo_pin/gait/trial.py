@@ -1,4 +1,4 @@
-"""A trial of a motion-capture laboratory: markers, model angles, events and force plates."""
+"""A motion-capture trial: markers, model angles, events and force plates."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike
 
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_time, frozen
 
-UPS = ("+x", "+y", "+z", "-x", "-y", "-z")
-"""What can be up in a laboratory."""
+UP_AXES = ("+x", "+y", "+z", "-x", "-y", "-z")
+"""Vertical axes of laboratories."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +39,7 @@ class ForcePlate:
 
     def __post_init__(self) -> None:
         for name in ("time", "force", "point", "moment"):
-            object.__setattr__(self, name, frozen(getattr(self, name), f"{self.name}: {name}"))
+            set_fields(self, **{name: frozen(getattr(self, name), f"{self.name}: {name}")})
         for name in ("force", "point", "moment"):
             if getattr(self, name).shape != (len(self.time), 3):
                 raise GaitError(f"{self.name}: {name} has shape {getattr(self, name).shape}, expected (m, 3)")
@@ -52,7 +53,7 @@ class Markers:
         time: `(n,)` strictly increasing [s]; the first frame need not be at 0.
         names: The k markers.
         position: `(n, k, 3)` [m]; NaN where a marker was not seen.
-        up: Which of the laboratory's axes points up, one of `UPS`, or "" where the file does not say.
+        up: Which of the laboratory's axes points up, one of `UP_AXES`, or "" where the file does not say.
         angles: Model angles by the file's names, `(n, 3)` [rad] each; NaN where there are none.
         events: Foot contacts that the file states.
         plates: Force plates.
@@ -72,11 +73,9 @@ class Markers:
     source: str = ""
 
     def __post_init__(self) -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(self.time, "time"))
+        set_fields(self, time=frozen(self.time, "time"), names=tuple(self.names))
         check_time(self.time, periodic=False)
-        put(self, "names", tuple(self.names))
-        put(self, "position", frozen(self.position, "position"))
+        set_fields(self, position=frozen(self.position, "position"))
         n, k = len(self.time), len(self.names)
         if self.position.shape != (n, k, 3):
             raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")
@@ -84,9 +83,9 @@ class Markers:
             raise GaitError("a marker occurs more than once")
         if np.isinf(self.position).any():
             raise GaitError("a marker is at infinity; expected metres, or NaN where it was not seen")
-        if self.up not in ("", *UPS):
-            raise UnknownNameError("axis", self.up, UPS)
-        put(self, "angles", MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
+        if self.up not in ("", *UP_AXES):
+            raise UnknownNameError("axis", self.up, UP_AXES)
+        set_fields(self, angles=MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
         for name, values in self.angles.items():
             if values.shape != (n, 3):
                 raise GaitError(f"{name} has shape {values.shape}, expected ({n}, 3)")
@@ -106,7 +105,7 @@ class Markers:
         return np.asarray(self.position[:, self.names.index(name)])
 
     def renamed(self, mapping: Mapping[str, str]) -> Markers:
-        """The same trial with other names for some markers; whoever had such a name before is left out.
+        """The same trial with other names for some markers; a marker that had such a name before is left out.
 
         Raises:
             UnknownNameError: There is no marker of a name in `mapping`.
@@ -135,8 +134,8 @@ def to_z_up(up: str) -> Array:
     Raises:
         UnknownNameError: There is no such axis.
     """
-    if up not in UPS:
-        raise UnknownNameError("axis", up, UPS)
+    if up not in UP_AXES:
+        raise UnknownNameError("axis", up, UP_AXES)
     axis = np.zeros(3)
     axis["xyz".index(up[1])] = 1.0 if up[0] == "+" else -1.0
     forward = np.array([0.0, 1.0, 0.0]) if up[1] == "x" else np.array([1.0, 0.0, 0.0])

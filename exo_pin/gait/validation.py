@@ -1,4 +1,4 @@
-"""What a walk must be before anything is computed from it; every refusal says what, where and why."""
+"""Validation of a walk's arrays: shape, time, angles, poses and events."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from numpy.typing import ArrayLike
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait import rigid
+from exo_pin.gait import rigid_poses
 from exo_pin.gait.event import SAME_TIME, Event
 
-LARGEST_ANGLE = np.pi
+_LARGEST_ANGLE = np.pi
 """No joint of a leg turns further [rad]; a larger number is nearly always degrees taken for radians."""
 
-LARGEST_TIME = 1e9
+_LARGEST_TIME = 1e9
 """Thirty years [s]: a number beyond is no time of a walk."""
 
-UNIFORM = 1e-6
+_UNIFORM = 1e-6
 """How far the samples of a periodic gait may lie off an even grid, as a fraction of the step."""
 
 
@@ -48,7 +48,7 @@ def check_time(time: Array, periodic: bool) -> None:
     """Raises `GaitError` unless `time` is `(n,)`, n >= 2, finite and increasing; even from 0 if periodic."""
     if time.ndim != 1 or len(time) < 2:
         raise GaitError(f"time has shape {time.shape}, expected (n,) with at least 2 samples")
-    bad = np.flatnonzero(~(np.abs(time) <= LARGEST_TIME))
+    bad = np.flatnonzero(~(np.abs(time) <= _LARGEST_TIME))
     if bad.size:
         raise GaitError(f"time of frame {bad[0]} is {time[bad[0]]:g}, expected seconds")
     late = np.flatnonzero(np.diff(time) < SAME_TIME)  # differences of such samples would be rounding
@@ -67,7 +67,7 @@ def _check_cycle(time: Array) -> None:
         raise GaitError(f"a periodic gait stores [0, T): its time starts at 0, not at {time[0]:g} s")
     step = time[-1] / (len(time) - 1)
     off = np.abs(time - step * np.arange(len(time)))
-    if off.max() > UNIFORM * step:
+    if off.max() > _UNIFORM * step:
         raise GaitError(
             f"a periodic gait is evenly sampled, but frame {int(off.argmax())} lies {off.max():.3g} s off "
             "the grid; resample it before it is marked as periodic"
@@ -82,7 +82,7 @@ def check_angles(q: Array, n: int) -> None:
         )
     for bad, hint in (
         (~np.isfinite(q), "expected a finite angle"),
-        (np.abs(q) > LARGEST_ANGLE, "more than half a turn; degrees given as radians?"),
+        (np.abs(q) > _LARGEST_ANGLE, "more than half a turn; degrees given as radians?"),
     ):
         if bad.any():
             frame, joint = np.argwhere(bad)[0]
@@ -90,10 +90,16 @@ def check_angles(q: Array, n: int) -> None:
 
 
 def check_poses(T: Array, n: int, name: str) -> None:
-    """Raises `GaitError` unless `T` is `(n, 4, 4)` rigid poses; `name` says whose."""
+    """Raises `GaitError` unless `T` is `(n, 4, 4)` rigid poses.
+
+    Args:
+        T: The poses.
+        n: Number of samples.
+        name: Name of the array in messages.
+    """
     if T.shape != (n, 4, 4):
         raise GaitError(f"{name} has shape {T.shape}, expected ({n}, 4, 4): a pose in the world per time")
-    wrong = rigid.not_rigid(T)
+    wrong = rigid_poses.not_rigid(T)
     if wrong is not None:
         raise GaitError(
             f"{name} of frame {wrong} is no rigid pose; expected a rotation, metres and last row 0 0 0 1"
@@ -101,7 +107,13 @@ def check_poses(T: Array, n: int, name: str) -> None:
 
 
 def check_events(events: Sequence[Event], time: Array, periodic: bool) -> None:
-    """Raises `GaitError` for an event outside the walk: [start, end), or [start, end] if not periodic."""
+    """Raises `GaitError` for an event outside the walk: [start, end), or [start, end] if not periodic.
+
+    Args:
+        events: Gait events.
+        time: `(n,)` [s].
+        periodic: Whether the walk repeats.
+    """
     start = float(time[0])
     end = start + duration(time, periodic)
     for event in events:

@@ -12,8 +12,8 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
-from exo_pin.gait.curves import runs
 from exo_pin.gait.event import SAME_TIME
+from exo_pin.gait.time_series import runs
 
 Intervals = dict[str, tuple[tuple[float, float], ...]]
 """Side -> (from, to) [s] after the gait's first sample."""

@@ -17,7 +17,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
-from exo_pin.gait.curves import runs
+from exo_pin.gait.time_series import runs
 from exo_pin.ground.stance import Intervals, lowest_corners, samples
 
 SOFTNESS = 0.003

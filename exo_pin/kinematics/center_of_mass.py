@@ -35,7 +35,14 @@ def center_of_mass(
     *,
     base: npt.ArrayLike | None = None,
 ) -> CenterOfMass:
-    """The centre of mass, everything that the model weighs; arguments as in `exo_pin.kinematics.poses`.
+    """The centre of mass of all links, wearer and device together.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        dq: Joint velocities (..., nv) [rad/s]; zero if left out.
+        ddq: Joint accelerations (..., nv) [rad/s^2]; zero if left out.
+        base: T_world_pelvis as in `exo_pin.kinematics.poses`.
 
     Raises:
         DescriptionError: A shape does not fit.

@@ -1,4 +1,4 @@
-"""Feet and ground: heights of the sole corners, and gait events from the motion."""
+"""Contact with the ground: heights of the sole corners, and gait events from kinematics."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.heading import headings
-from exo_pin.gait.step_checks import Feet
+from exo_pin.gait.stride_checks import Feet
 from exo_pin.gait.strides import strides, turns_of
-from exo_pin.gait.walking_bouts import walking
+from exo_pin.gait.walking_bouts import walking_events
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
-TOUCH = 0.01
+_TOUCH_HEIGHT = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
 
-TURNED = np.pi / 2
-"""A pelvis that turns by more [rad] in a motion that is no walk is worth mentioning."""
+_LARGE_TURN = np.pi / 2
+"""A larger rotation of the pelvis [rad] is named where a motion is refused as no walk."""
 
 
 class Contacts(NamedTuple):
@@ -51,7 +51,7 @@ def contacts(
     *,
     base: npt.ArrayLike | None = None,
     ground: float = 0.0,
-    tolerance: float = TOUCH,
+    tolerance: float = _TOUCH_HEIGHT,
 ) -> Contacts:
     """Which corner of which foot touches the ground, by geometry alone.
 
@@ -72,13 +72,13 @@ def contacts(
 def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008).
 
-    Heel and ball of the foot are followed forward of the pelvis, along its own horizontal heading: that
-    serves on the treadmill and over ground, whatever the direction of the walk. Parts that are no walk give
-    no events; see `exo_pin.gait.bouts.walking`. Without the pelvis's motion a foot's height is told by how
-    far its leg is drawn up.
+    Heel and ball of each foot are measured forward of the pelvis, along its horizontal heading: that serves
+    on the treadmill and over ground, in any direction of the walk. Parts that are no walk give no events;
+    see `exo_pin.gait.walking_bouts`. Where the pelvis's motion is unknown, minus the length of the leg serves
+    as the height of a foot.
 
     Raises:
-        GaitError: There are no gait cycles in the motion; the message says what speaks against them.
+        GaitError: There are no gait cycles in the motion; the message gives the objection.
     """
     base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
@@ -90,10 +90,10 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
     feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
     try:
-        found = walking(feet, periodic=gait.periodic)
+        found = walking_events(feet, periodic=gait.periodic)
     except GaitError as error:
         turn = abs(float(turns_of(gait, gait.time[[0, -1]])[0]))
-        hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > TURNED else ""
+        hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > _LARGE_TURN else ""
         raise GaitError(f"{error}{hint}") from error
     _check_strides(dataclasses.replace(gait, events=found))
     return found

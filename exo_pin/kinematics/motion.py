@@ -59,16 +59,25 @@ def velocities(
 ) -> Array:
     """Velocities (..., F, 6) [m/s, rad/s] of the named frames: linear, then angular, in world axes.
 
-    Arguments and errors as in `poses`; dq (..., nv) are joint velocities [rad/s].
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        dq: Joint velocities (..., nv) [rad/s].
+        frames: Names of links, point frames or joints.
+        base: T_world_pelvis as in `poses`, held still.
+
+    Raises:
+        UnknownNameError: A frame is unknown.
+        DescriptionError: The shape of q, dq or base does not fit.
     """
     rows, shape = samples(robot, q)
     speeds = rates(robot, dq, shape, "dq")
 
-    def row(data: Any, k: int, ids: list[int]) -> list[Array]:
+    def _row(data: Any, k: int, ids: list[int]) -> list[Array]:
         pin.forwardKinematics(robot.model, data, rows[k], speeds[k])
         return [pin.getFrameVelocity(robot.model, data, i, _AXES).vector for i in ids]
 
-    return _spatial(robot, len(rows), shape, frames, base, row)
+    return _spatial(robot, len(rows), shape, frames, base, _row)
 
 
 def accelerations(
@@ -83,20 +92,43 @@ def accelerations(
     """Accelerations (..., F, 6) [m/s^2, rad/s^2]: of the frame's origin and angular, in world axes.
 
     The linear part is the classical (material) one, the derivative of the origin's velocity; gravity is not
-    in it. Arguments and errors as in `poses`; dq, ddq (..., nv).
+    in it.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        dq: Joint velocities (..., nv) [rad/s].
+        ddq: Joint accelerations (..., nv) [rad/s^2].
+        frames: Names of links, point frames or joints.
+        base: T_world_pelvis as in `poses`, held still.
+
+    Raises:
+        UnknownNameError: A frame is unknown.
+        DescriptionError: The shape of q, dq, ddq or base does not fit.
     """
     rows, shape = samples(robot, q)
     speeds, changes = rates(robot, dq, shape, "dq"), rates(robot, ddq, shape, "ddq")
 
-    def row(data: Any, k: int, ids: list[int]) -> list[Array]:
+    def _row(data: Any, k: int, ids: list[int]) -> list[Array]:
         pin.forwardKinematics(robot.model, data, rows[k], speeds[k], changes[k])
         return [pin.getFrameClassicalAcceleration(robot.model, data, i, _AXES).vector for i in ids]
 
-    return _spatial(robot, len(rows), shape, frames, base, row)
+    return _spatial(robot, len(rows), shape, frames, base, _row)
 
 
 def jacobian(robot: Robot, q: npt.ArrayLike, frame: str, *, base: npt.ArrayLike | None = None) -> Array:
-    """Jacobian (..., 6, nv) of a frame: `jacobian @ dq` is its velocity as `velocities` gives it."""
+    """Jacobian (..., 6, nv) of a frame: `jacobian @ dq` is its velocity as `velocities` gives it.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        frame: Name of a link, point frame or joint.
+        base: T_world_pelvis as in `poses`.
+
+    Raises:
+        UnknownNameError: The frame is unknown.
+        DescriptionError: The shape of q or base does not fit.
+    """
     index = robot.frame(frame)
     data = robot.model.createData()
     rows, shape = samples(robot, q)
@@ -112,6 +144,12 @@ def jacobian(robot: Robot, q: npt.ArrayLike, frame: str, *, base: npt.ArrayLike 
 
 def attitude(robot: Robot, q: npt.ArrayLike, frame: str, *, relative_to: str) -> Array:
     """Rotation (..., 3, 3) of one link, joint or frame seen from another: R_relative_frame.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq) [rad].
+        frame: Name of the frame.
+        relative_to: Name of the frame that it is seen from.
 
     Raises:
         UnknownNameError: A frame is unknown.
@@ -134,6 +172,12 @@ def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
 def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:
     """Joint velocities or accelerations as rows (n, nv), checked against the samples.
 
+    Args:
+        robot: The robot.
+        values: (..., nv) [rad/s] or [rad/s^2].
+        shape: Shape (...) of the samples of q.
+        name: Name of the argument in messages.
+
     Raises:
         DescriptionError: The shape does not fit.
     """
@@ -145,6 +189,11 @@ def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str
 
 def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     """What carries the robot from its own placement to `base`: (..., 4, 4).
+
+    Args:
+        robot: The robot.
+        base: T_world_pelvis (4, 4) or (..., 4, 4).
+        shape: Shape (...) of the samples of q.
 
     Raises:
         DescriptionError: The shape does not fit, or the robot's base floats and stands in q already.

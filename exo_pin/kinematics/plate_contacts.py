@@ -86,7 +86,7 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tupl
             times = {"heel_strike": contact.strike, "toe_off": contact.off}
             for kind, t in times.items():
                 if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
-                    found.append(Event(t, kind, side, force_plates.SOURCE))
+                    found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
     if not found:
         raise GaitError("no contact of a foot with a force plate was found")
     return tuple(sorted(found, key=lambda event: event.time))

@@ -1,4 +1,4 @@
-"""Where a pelvis would stand if a device held it: upright at its mean place, looking its mean way."""
+"""The resting stance: a pelvis as a device holds it, upright at its mean place and heading."""
 
 from __future__ import annotations
 
@@ -9,9 +9,14 @@ from exo_pin.gait.heading import mean_heading
 
 
 def stand(time: Array, base: Array, *, periodic: bool) -> Array:
-    """T_world_stand (n, 4, 4) for a pelvis T_world_pelvis (n, 4, 4) at times (n,) [s].
+    """The stand T_world_stand (n, 4, 4) that holds a pelvis upright.
 
-    It goes evenly along with a walk over ground, and stands still under a periodic one.
+    It travels evenly with a walk over ground, and rests under a periodic one.
+
+    Args:
+        time: `(n,)` [s].
+        base: T_world_pelvis `(n, 4, 4)`.
+        periodic: Whether the walk repeats.
     """
     place = base[:, :3, 3]
     held = np.tile(np.eye(4), (len(place), 1, 1))
@@ -22,7 +27,13 @@ def stand(time: Array, base: Array, *, periodic: bool) -> Array:
 
 
 def travel(time: Array, place: Array, *, periodic: bool) -> Array:
-    """The even travel (n, 3) of a place (n, 3) [m]: level along a line, or periodic and hence at rest."""
+    """The even part `(n, 3)` of a motion [m]: horizontal at constant velocity, or at rest where it repeats.
+
+    Args:
+        time: `(n,)` [s].
+        place: `(n, 3)` positions [m].
+        periodic: Whether the motion repeats.
+    """
     even = np.tile(place.mean(axis=0), (len(place), 1))
     if not periodic:
         away = time - time.mean()

@@ -12,7 +12,7 @@ from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.markers.marker_sets import MarkerSet
 
 THIGH = 0.245 / (0.245 + 0.246)

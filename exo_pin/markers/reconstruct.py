@@ -17,7 +17,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, load_markers
 from exo_pin.gait import Gait
-from exo_pin.gait.trial import UPS, to_z_up
+from exo_pin.gait.trial import UP_AXES, to_z_up
 from exo_pin.markers.body_scale import Placement, body_of, first_sizes
 from exo_pin.markers.marker_fit import few, learnt, solved
 from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
@@ -173,7 +173,7 @@ def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> str:
     rest = np.linalg.norm(np.delete(above, k))
     if not abs(above[k]) > 2 * rest:
         raise GaitError(
-            f"which axis is up is not clear: the pelvis is {above} m from the feet; one of {UPS}?"
+            f"which axis is up is not clear: the pelvis is {above} m from the feet; one of {UP_AXES}?"
         )
     return ("+" if above[k] > 0 else "-") + "xyz"[k]
 

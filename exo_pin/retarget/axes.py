@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 
 _LEAST_VOLUME = 0.1
 """Three axes with a smaller triple product are nearly coplanar: they do not make a hip."""

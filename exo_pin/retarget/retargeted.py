@@ -14,7 +14,7 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.demand import RangeDemand, range_demands
 from exo_pin.files import json_number
 from exo_pin.gait import Gait
-from exo_pin.gait.rigid import angle_of
+from exo_pin.gait.rigid_poses import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.retarget.biped import Biped
 from exo_pin.retarget.target_robots import Target

@@ -11,7 +11,7 @@ import pinocchio as pin
 from exo_pin.anatomy.names import Movement, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import nearest_point

@@ -16,7 +16,7 @@ from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget.axes import angles_about
 from exo_pin.retarget.biped import Biped, as_biped, load

@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
-from exo_pin.anatomy.hip import reorder
+from exo_pin.anatomy.hip_cardan_angles import reorder
 from exo_pin.anatomy.names import Base, HipOrder
 from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES, Device

@@ -19,7 +19,7 @@ from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import is_markers, load_gait
-from exo_pin.gait import Gait, doubts, normative_gait
+from exo_pin.gait import Gait, implausibilities, normative_gait
 from exo_pin.study.study_table import MOTIONS, Row, phase_column
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[R
     parts = zip(case.parts, case.fingerprints, strict=True)
     devices = {device: mark for (conditions, device), mark in parts if conditions == granted}
     compared = compare(gait, devices, body, conditions=granted)
-    doubtful = "; ".join(doubts(gait))
+    doubtful = "; ".join(implausibilities(gait))
     for pair in zip(compared.best, compared.projected, strict=True):
         for motion, loss in zip(MOTIONS, pair, strict=True):
             yield _row(case, loss, motion, granted, doubtful, devices[loss.device])

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES, Body
-from exo_pin.anatomy.hip import reorder
+from exo_pin.anatomy.hip_cardan_angles import reorder
 from exo_pin.anatomy.inertia import link_inertias
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError

@@ -8,7 +8,7 @@ import pytest
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, Body
-from exo_pin.anatomy.hip import hip_angles
+from exo_pin.anatomy.hip_cardan_angles import hip_angles
 from exo_pin.cli import main
 from exo_pin.compare import (
     PHASES,

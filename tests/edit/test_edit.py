@@ -11,7 +11,7 @@ from exo_pin import edit
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
 from exo_pin.demand import ACCELERATION_LIMIT
 from exo_pin.errors import ConvergenceError, GaitError, UnknownNameError
-from exo_pin.gait import SPEEDS, Gait, curves, normative_gait
+from exo_pin.gait import SPEEDS, Gait, normative_gait, time_series
 from exo_pin.kinematics import poses, spatiotemporal
 from exo_pin.robot import load_robot
 
@@ -272,7 +272,7 @@ def test_a_transition_begins_with_one_walk_and_ends_with_the_other(walk):
     first, last = (g.time < walk.duration), (g.time > g.duration - slow.duration)
     for part, source, since in ((first, walk, 0.0), (last, slow, g.duration)):
         phase = (g.time[part] - since) / source.duration
-        np.testing.assert_allclose(g.q[part], curves.at_phase(source.q, phase), atol=EXACT)
+        np.testing.assert_allclose(g.q[part], time_series.at_phase(source.q, phase), atol=EXACT)
     assert g.duration == pytest.approx(walk.duration + (walk.duration + slow.duration) + 2 * slow.duration)
     strikes = [e.time for e in g.events if (e.side, e.kind) == ("left", "heel_strike")]
     strides = np.diff(strikes)

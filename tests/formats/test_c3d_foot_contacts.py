@@ -32,6 +32,18 @@ def test_strikes_and_offs_are_understood(label, context, side, kind):
     assert understood(label, context) == [(65.5, side, kind)]
 
 
+@pytest.mark.parametrize(("left", "right"), [("Left", "Right"), ("l", "r"), ("L", "RIGHT")])
+@pytest.mark.parametrize("label", ["{}HS", "{} foot strike", "{}_IC"])
+def test_the_side_is_the_contexts_then_the_labels(label, left, right):
+    """A context that names a side decides, whatever the label says; without one the label's side counts."""
+    for own, other, side in ((left, right, "left"), (right, left, "right")):
+        letter = own[0] if label.endswith(("HS", "IC")) else own
+        opposite = other[0] if label.endswith(("HS", "IC")) else other
+        for context in ("", "General", "Subject"):
+            assert understood(label.format(letter), context) == [(65.5, side, "heel_strike")]
+        assert understood(label.format(opposite), own) == [(65.5, side, "heel_strike")]
+
+
 @pytest.mark.parametrize(
     ("label", "context"),
     [("Event", "Left"), ("Foot Strike", "General"), ("", ""), ("left", "Left"), ("R", "R")],

@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Markers, load_gait, load_markers
-from exo_pin.gait.trial import UPS, to_z_up
+from exo_pin.gait.trial import UP_AXES, to_z_up
 
 NAMES = ["Anna:LASI", "RASI"]
 EXACT = 1e-15
@@ -85,7 +85,7 @@ def test_a_marker_file_is_no_gait_and_says_what_to_do(path):
         load_markers(path.with_suffix(".csv"))
 
 
-@pytest.mark.parametrize("up", UPS)
+@pytest.mark.parametrize("up", UP_AXES)
 def test_any_vertical_becomes_z_by_a_rotation(up):
     R = to_z_up(up)
     axis = np.eye(3)["xyz".index(up[1])] * (1 if up[0] == "+" else -1)

@@ -1,4 +1,4 @@
-"""Cycles, spatiotemporal numbers, force-plate contacts and doubts: known walks give known numbers."""
+"""Cycles, spatiotemporal numbers, force-plate contacts and plausibility: known walks give known numbers."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import GaitError, UnknownNameError
@@ -16,11 +18,12 @@ from exo_pin.gait import (
     Gait,
     against_normal,
     cycles,
-    doubts,
     force_plates,
+    implausibilities,
     normal,
     normative_gait,
-    norms,
+    reference_values,
+    side_with_more_strides,
     spatiotemporal,
 )
 from exo_pin.kinematics import spatiotemporal as of_walk
@@ -139,6 +142,18 @@ def test_lengths_are_over_the_ground_whatever_the_heading_or_the_belt(belt, head
     assert numbers["stride_length"].sd == pytest.approx(0, abs=1e-6)
 
 
+def test_the_foot_with_more_strides_counts_only_strides_and_is_left_of_equals():
+    walk = normative_gait("free").repeated(4)
+    recording = Gait(walk.time, walk.q, events=walk.events)
+    assert side_with_more_strides(recording) == "left"  # the first strike is the left foot's
+    late = Gait(walk.time, walk.q, events=[e for e in walk.events if e.side == "right" or e.time > 2.0])
+    assert side_with_more_strides(late) == "right"
+    assert side_with_more_strides(walk) == "left"
+    offs = [e for e in walk.events if (e.side, e.kind) == ("left", "toe_off")]
+    without = Gait(walk.time, walk.q, events=[e for e in walk.events if e != offs[1]])
+    assert side_with_more_strides(without) == "right"  # a left stride without its toe-off is none
+
+
 def test_steps_of_a_periodic_walk_are_counted_once():
     numbers = of_walk(load_robot(), normative_gait("free"))
     assert {name: number.n for name, number in numbers.items() if name != "stride_length"} == {
@@ -182,8 +197,8 @@ def test_numbers_are_compared_with_published_ranges_that_name_their_source():
     numbers = spatiotemporal(time, path, events)
     assert against_normal(numbers, leg_length=LEG)["speed"] == "within"
     usual = normal(numbers, leg_length=LEG)
-    assert {norm.source for norm in usual.values()} == set(norms.CITATIONS)
-    assert {name for name, norm in usual.items() if norm.source == norms.SCHWARTZ} >= {
+    assert {norm.source for norm in usual.values()} == set(reference_values.CITATIONS)
+    assert {name for name, norm in usual.items() if norm.source == "Schwartz 2008"} >= {
         "cadence",
         "stride_length",
         "left_step_length",
@@ -236,12 +251,22 @@ def force(*spans, n=1001):
     return time, load
 
 
-def test_contacts_are_told_by_the_threshold_between_the_samples():
+def test_contacts_begin_and_end_at_the_threshold_between_the_samples():
     time = np.linspace(0, 1, 11)
     found = force_plates.contacts(time, [0, 0, 0, 40, 500, 500, 500, 30, 0, 0, 0])
     assert len(found) == 1
     assert found[0].strike == pytest.approx(0.25)
     assert found[0].off == pytest.approx(0.7 + 0.1 / 3)
+
+
+@given(st.floats(5.0, 600.0), st.floats(1500.0, 9000.0), st.floats(0.001, 0.019))
+def test_a_contact_begins_where_a_ramp_of_force_passes_the_threshold(threshold, slope, offset):
+    """The force rises and falls evenly between samples that lie anywhere, also at an uneven rate."""
+    time = np.sort(np.concatenate([np.arange(0.0, 2.0, 0.02), [0.5 + offset, 1.5 + offset]]))
+    force = slope * np.clip(np.minimum(time - 0.2, 1.8 - time), -1.0, 1.0)
+    (found,) = force_plates.contacts(time, force, threshold=threshold)
+    assert found.strike == pytest.approx(0.2 + threshold / slope, abs=1e-9)
+    assert found.off == pytest.approx(1.8 - threshold / slope, abs=1e-9)
 
 
 def test_contacts_at_the_ends_are_open_and_short_ones_are_noise():
@@ -265,9 +290,9 @@ def changed(joint, change):
     return Gait(walk.time, q)
 
 
-def test_usual_walks_raise_no_doubts():
+def test_usual_walks_are_plausible():
     for speed in ("very_slow", "slow", "free", "fast", "very_fast"):
-        assert doubts(normative_gait(speed)) == ()
+        assert implausibilities(normative_gait(speed)) == ()
 
 
 @pytest.mark.parametrize(
@@ -278,17 +303,43 @@ def test_usual_walks_raise_no_doubts():
         ("ankle_dorsiflexion", lambda x: x + 1.5, "left_ankle_dorsiflexion is beyond human range for 100 %"),
     ],
 )
-def test_a_wrong_sign_is_doubted_with_its_reason(joint, change, reason):
-    found = doubts(changed(joint, change))
+def test_a_wrong_sign_is_implausible_with_its_reason(joint, change, reason):
+    found = implausibilities(changed(joint, change))
     assert any(re.search(reason, text) for text in found), found
 
 
-def test_angles_that_hardly_move_are_doubted():
+SWING = "both hips extend while the knee is bent most"
+
+
+def test_a_walk_in_reverse_order_looks_like_a_hip_of_wrong_sign():
     walk = normative_gait("free")
-    assert any("units?" in text for text in doubts(Gait(walk.time, np.radians(walk.q))))
+    assert any(SWING in text for text in implausibilities(Gait(walk.time, walk.q[::-1])))
 
 
-def test_milliseconds_taken_for_seconds_are_doubted():
+@pytest.mark.parametrize("side", SIDES)
+def test_one_hip_against_its_knee_is_not_both(side):
+    walk = normative_gait("free")
+    q = walk.q.copy()
+    q[:, JOINTS.index(f"{side}_hip_flexion")] *= -1.0
+    assert not any(SWING in text for text in implausibilities(Gait(walk.time, q)))
+
+
+@pytest.mark.parametrize(("joint", "share"), [("knee_flexion", 0.4), ("hip_flexion", 0.25)])
+def test_legs_that_hardly_swing_have_no_swing_to_judge(joint, share):
+    """A knee that bends by less than 30 degrees, or a hip by less than 15, says nothing about the signs."""
+    walk = normative_gait("free")
+    q = walk.q[::-1].copy()
+    for side in SIDES:
+        q[:, JOINTS.index(f"{side}_{joint}")] *= share
+    assert not any(SWING in text for text in implausibilities(Gait(walk.time, q)))
+
+
+def test_angles_that_hardly_move_are_implausible():
+    walk = normative_gait("free")
+    assert any("units?" in text for text in implausibilities(Gait(walk.time, np.radians(walk.q))))
+
+
+def test_milliseconds_taken_for_seconds_are_implausible():
     long = normative_gait("free").repeated(2)
-    assert not any("seconds" in text for text in doubts(Gait(long.time, long.q)))
-    assert any("is the time in seconds" in text for text in doubts(Gait(1000 * long.time, long.q)))
+    assert not any("seconds" in text for text in implausibilities(Gait(long.time, long.q)))
+    assert any("is the time in seconds" in text for text in implausibilities(Gait(1000 * long.time, long.q)))

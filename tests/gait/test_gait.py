@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait, normative_gait
-from exo_pin.gait.curves import runs
 from exo_pin.gait.heading import heading, turned
-from exo_pin.gait.rigid import about, angle_of
+from exo_pin.gait.rigid_poses import about, angle_of
+from exo_pin.gait.time_series import runs
 
 ROUNDING = 1e-12  # [rad, m] sums of a few dozen terms of size 1
 SPECTRAL = 1e-9  # [rad/s^2] rounding times the square of the highest frequency

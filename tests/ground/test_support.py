@@ -11,7 +11,7 @@ from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, Gait, normative_gait
 from exo_pin.ground import stance
 from exo_pin.ground.placement import motion
-from exo_pin.ground.support import DEEPEST
+from exo_pin.ground.support import DEEPEST, support
 from exo_pin.retarget import retarget
 from exo_pin.robot import load_robot
 
@@ -30,6 +30,20 @@ def robot():
 
 def standing(shown, side):
     return stance.samples(shown.stance, side, shown.time)
+
+
+@pytest.mark.parametrize(("side", "first"), [("left", 0), ("right", 4)])
+def test_the_slide_of_either_foot_is_measured_while_it_stands_alone(side, first):
+    """One foot stands for a second and is pushed sideways by 3 cm meanwhile; the other one is in the air."""
+    time = np.linspace(0.0, 2.0, 201)
+    gait = Gait(time, np.zeros((201, 12)))
+    corners = np.zeros((201, 8, 3))
+    corners[..., 2] = 0.2
+    corners[:, first : first + 4, 2] = 0.0
+    corners[:, first : first + 4, 1] = 0.03 * np.clip(time - 0.5, 0.0, 1.0)[:, None]
+    other = "right" if side == "left" else "left"
+    found = support("still", gait, np.tile(np.eye(4), (201, 1, 1)), corners, {side: ((0.5, 1.5),), other: ()})
+    assert found.slide == pytest.approx(0.03, rel=0.03)
 
 
 @pytest.mark.parametrize("speed", SPEEDS)

@@ -113,7 +113,7 @@ def test_plates_correct_the_events_that_they_saw_and_leave_the_others(shared):
     robot = load_robot(Body.from_stature(1.34, mass=33))
     bare = dataclasses.replace(stated, events=())
     found = with_plates(robot, bare, trial.plates)
-    measured = [e for e in found.events if e.source == force_plates.SOURCE]
+    measured = [e for e in found.events if e.source == force_plates.FORCE_PLATE]
     assert len(measured) == 4
     assert len(found.events) == len(events(robot, bare))  # corrected, none twice
     strides = [np.diff(times(w.events, "heel_strike", side)) for w in (found, stated) for side in SIDES]

@@ -11,7 +11,7 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Markers, load_gait, load_markers
 from exo_pin.gait import normative_gait
-from exo_pin.gait.trial import UPS, to_z_up
+from exo_pin.gait.trial import UP_AXES, to_z_up
 from exo_pin.kinematics import poses
 from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
 from exo_pin.markers.body_scale import THIGH, Sizes, body_of, placement
@@ -84,7 +84,7 @@ def test_the_vertical_is_found_from_the_markers_themselves(made, known_walk):
     turned = {name: path @ R for name, path in paths.items()}
     found = reconstruct(trial(walk, turned))
     np.testing.assert_allclose(found.gait.q, known_walk.gait.q, atol=1e-5)
-    assert set(UPS) > {"+y"}
+    assert set(UP_AXES) > {"+y"}
 
 
 def test_people_walk_in_any_direction(made, known_walk):

@@ -10,7 +10,7 @@ import pytest
 from exo_pin.cli import main
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.gait import normative_gait
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load, retarget
 from exo_pin.retarget.axes import angles_about, nearest_axis, unit_vector

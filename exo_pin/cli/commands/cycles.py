@@ -69,7 +69,7 @@ def run(args: argparse.Namespace) -> int:
 def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
     """Cycles by side, spans that are none and why, the spatiotemporal numbers; or why there are none."""
     from exo_pin.gait import against_normal, normal, strides
-    from exo_pin.gait.norms import CITATIONS
+    from exo_pin.gait.reference_values import CITATIONS
     from exo_pin.kinematics import spatiotemporal
 
     none: dict[str, Any] = {
@@ -125,7 +125,7 @@ def _rounded(value: float, unit: str) -> str:
 
 def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
     print(f"source: {found['source'] or 'not stated'}; events: {', '.join(found['events_by'])}")
-    from exo_pin.gait.events import SOURCE
+    from exo_pin.gait.zeni_method import ZENI
 
     sources = list(found["sources"])
     rows = [
@@ -145,7 +145,7 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
     for k, citation in enumerate(found["sources"].values()):
         print(f"{k + 1}  {citation}")
     print("-  no published range was checked")
-    if any(SOURCE in by and "plate" not in by for by in found["events_by"]):
+    if any(ZENI in by and "plate" not in by for by in found["events_by"]):
         print(
             "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
         )

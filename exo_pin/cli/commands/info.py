@@ -69,7 +69,7 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
     import numpy as np
 
     from exo_pin.demand import range_demands
-    from exo_pin.gait import doubts
+    from exo_pin.gait import implausibilities
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
@@ -98,6 +98,6 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
         "events_note": note,
         "markers": trials.facts(args),
         "outliers": outliers.facts(gait),
-        "doubts": [*doubts(gait), *trials.doubts(args)],
+        "doubts": [*implausibilities(gait), *trials.doubts(args)],
         **cycles.facts(robot, gait),
     }

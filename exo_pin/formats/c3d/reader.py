@@ -24,7 +24,7 @@ from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.reading import Reading
 from exo_pin.formats.tables.notes import Notes, to_gait
 from exo_pin.gait import Gait
-from exo_pin.gait.rigid import nearest_pose
+from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.gait.trial import ForcePlate, Markers, to_z_up, unique
 from exo_pin.signals import longest_run
 

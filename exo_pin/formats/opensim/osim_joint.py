@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 
 Vector = tuple[float, float, float]
 

@@ -9,7 +9,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.body import Leg
 from exo_pin.errors import DescriptionError, GaitError
 from exo_pin.gait import Gait, Stride, against_normal, normal, strides
-from exo_pin.gait.norms import CITATIONS
+from exo_pin.gait.reference_values import CITATIONS
 from exo_pin.kinematics import spatiotemporal
 from exo_pin.report.document.blocks import Block, Section, Table, Words
 from exo_pin.robot import Robot

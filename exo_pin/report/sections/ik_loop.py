@@ -11,7 +11,7 @@ from exo_pin import ik
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.gait.rigid import angle_of
+from exo_pin.gait.rigid_poses import angle_of
 from exo_pin.kinematics import poses
 from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg

@@ -9,7 +9,7 @@ import numpy as np
 from exo_pin import signals
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait, curves
+from exo_pin.gait import Gait, time_series
 from exo_pin.robot import Robot
 
 _EXACT = 1e-6  # [s] off an even grid: rounding
@@ -47,7 +47,7 @@ def motion(robot: Robot, gait: Gait, cutoff: float | None) -> JointRates:
 
 
 def _rates(gait: Gait, q: Array, period: float | None, how: str) -> JointRates:
-    dq, ddq = (curves.derivative(gait.time, q, order, period) for order in (1, 2))
+    dq, ddq = (time_series.derivative(gait.time, q, order, period) for order in (1, 2))
     return JointRates(dq, ddq, how)
 
 
@@ -58,11 +58,13 @@ def _smooth(gait: Gait, q: Array, cutoff: float | None) -> tuple[Array, str]:
     even = np.linspace(gait.time[0], gait.time[-1], len(gait))
     off = float(np.abs(gait.time - even).max())
     try:
-        smooth = signals.lowpass(even, curves.resampled(gait.time, q, even, periodic=False), cutoff=cutoff)
+        smooth = signals.lowpass(
+            even, time_series.resampled(gait.time, q, even, periodic=False), cutoff=cutoff
+        )
     except GaitError as error:
         return q, f"Angles not filtered, for the filter refused them ({error})."
     words = f"Angles low-pass filtered first (Butterworth, order {signals.ORDER}, zero lag, {cutoff:g} Hz)"
     if off < _EXACT:
         return smooth, f"{words}."
-    back = curves.resampled(even, smooth, gait.time, periodic=False)
+    back = time_series.resampled(even, smooth, gait.time, periodic=False)
     return back, f"{words}, on an even grid, from which the samples lie up to {1e3 * off:.2g} ms."

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from exo_pin.arrays import Array, Index
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 from exo_pin.viewer.meshes.solids import Color
 
 Triangles = tuple[Array, Index, Color | None]

@@ -11,7 +11,7 @@ import pinocchio as pin
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.heading import mean_heading
-from exo_pin.gait.rigid import about
+from exo_pin.gait.rigid_poses import about
 from exo_pin.ground.placement import Placement, motion
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command, Material

@@ -12,7 +12,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait, Torques, curves
+from exo_pin.gait import Gait, Torques, time_series
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes.scene import Plot, PlotGroup, Series
 
@@ -136,7 +136,7 @@ def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None =
     names = [name for name in joints or robot.joints if _turns(robot, name)]
     own = [robot.column(name) + len(robot.joints) - robot.nq for name in names]
     angles = robot.angles(q)[:, own]
-    speeds, speed = curves.derivative(time, angles, 1, None), robot.velocity[own]
+    speeds, speed = time_series.derivative(time, angles, 1, None), robot.velocity[own]
     lower, upper = robot.lower[own], robot.upper[own]
     return (
         Tab("Angles", "angles", tuple(names), angles, lower, upper, DEGREES),

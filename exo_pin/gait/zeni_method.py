@@ -1,33 +1,34 @@
-"""Heel strikes and toe-offs from the feet's motion: Zeni's method, which refuses rather than guesses."""
+"""Zeni's method: heel strikes and toe-offs at the extremes of the feet's motion relative to the pelvis."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.validation import check_time, frozen
 
-SOURCE = "Zeni 2008"
-SMALLEST_EXCURSION = 0.05
+ZENI = "Zeni 2008"
+_SMALLEST_EXCURSION = 0.05
 """A foot that moves less than this to and fro [m] is not walking."""
 
-PROMINENT = 0.3
-"""A turn of the foot counts if it stands out by this part of the usual excursion on both sides."""
+_PROMINENCE = 0.3
+"""Least prominence of a maximum on both sides, as a part of the usual excursion."""
 
-AT_THE_BORDER = 0.05
-"""Where the recording begins or ends, less is enough on that side: the rest of the swing is not there."""
+_PROMINENCE_AT_ENDS = 0.05
+"""The same towards an end of the recording, where a part of the swing is missing."""
 
-WINDOW = 3.0
-"""The usual excursion is looked for in spans of this length [s]: a stride of a slow walk and more."""
+_WINDOW = 3.0
+"""Length of the spans that the usual excursion is measured in [s]: a stride of a slow walk and more."""
 
-TOGETHER = 0.5
+_IN_PHASE = 0.5
 """Correlation of the two feet's curves above which they jump or are the same foot; walking has about -0.9."""
 
 
@@ -37,14 +38,14 @@ def zeni(
     toe_forward: ArrayLike,
     *,
     periodic: bool = False,
-    smallest_excursion: float = SMALLEST_EXCURSION,
+    smallest_excursion: float = _SMALLEST_EXCURSION,
 ) -> tuple[Event, ...]:
     """Contact events of forward walking, overground or on a treadmill.
 
     Heel strike is where the heel is furthest ahead of the pelvis, toe-off where the toe is furthest behind:
     J. A. Zeni, J. G. Richards, J. S. Higginson, "Two simple methods for determining gait events during
-    treadmill and overground walking using kinematic data", Gait & Posture 27 (2008) 710-714. Turns that do
-    not stand out by 30 % of the foot's usual excursion are taken for noise; the moment is refined with a
+    treadmill and overground walking using kinematic data", Gait & Posture 27 (2008) 710-714. Extremes
+    of less prominence than 30 % of the foot's usual excursion count as noise; the moment is refined with a
     parabola through three samples.
 
     Args:
@@ -74,16 +75,23 @@ def candidates(
     toe_forward: ArrayLike,
     *,
     periodic: bool = False,
-    smallest_excursion: float = SMALLEST_EXCURSION,
+    smallest_excursion: float = _SMALLEST_EXCURSION,
 ) -> list[Event]:
-    """Where each foot turns, sorted by time, whether or not it is a walk; arguments as in `zeni`.
+    """The extremes of each foot's motion as events sorted by time, walk or not.
+
+    Args:
+        time: `(n,)` [s].
+        heel_forward: `(n, 2)` heels ahead of the pelvis along the walking direction, left and right [m].
+        toe_forward: `(n, 2)` toes likewise.
+        periodic: The samples are one or more cycles [0, T) of a walk that repeats.
+        smallest_excursion: A foot that moves less to and fro is standing [m].
 
     Raises:
         GaitError: A foot hardly moves, or unusable arrays.
     """
     t = frozen(time, "time")
     check_time(t, periodic)
-    curves = {
+    curves: dict[EventKind, Array] = {
         "heel_strike": frozen(heel_forward, "heel_forward"),
         "toe_off": -frozen(toe_forward, "toe_forward"),
     }
@@ -92,11 +100,11 @@ def candidates(
         if curve.shape != (len(t), 2) or not np.isfinite(curve).all():
             raise GaitError(f"{kind}: expected finite positions ({len(t)}, 2) [m], left and right")
         for side, y in zip(SIDES, curve.T, strict=True):
-            events += [Event(x, kind, side, SOURCE) for x in _turns(t, y, side, periodic, smallest_excursion)]
+            events += [Event(x, kind, side, ZENI) for x in _maxima(t, y, side, periodic, smallest_excursion)]
     return sorted(events, key=lambda event: event.time)
 
 
-def _turns(time: Array, y: Array, side: Side, periodic: bool, smallest: float) -> list[float]:
+def _maxima(time: Array, y: Array, side: Side, periodic: bool, smallest: float) -> list[float]:
     """Times of the prominent maxima of y."""
     excursion = _excursion(time, y, smallest)
     if excursion < smallest:
@@ -104,9 +112,9 @@ def _turns(time: Array, y: Array, side: Side, periodic: bool, smallest: float) -
             f"no gait cycles found: the {side} foot moves {excursion:.3f} m to and fro, "
             f"less than {smallest:g} m"
         )
-    height = PROMINENT * excursion
+    height = _PROMINENCE * excursion
     if not periodic:
-        peaks = _prominent(y, height, AT_THE_BORDER * excursion)
+        peaks = _prominent(y, height, _PROMINENCE_AT_ENDS * excursion)
         return [_vertex(time, y, i) for i in peaks]
     n, start = len(y), int(y.argmin())
     step = time[-1] / (n - 1)
@@ -119,7 +127,7 @@ def _turns(time: Array, y: Array, side: Side, periodic: bool, smallest: float) -
 
 def _excursion(time: Array, y: Array, smallest: float) -> float:
     """How far the foot usually moves to and fro [m], where it moves: before and after it may stand."""
-    length = int(np.searchsorted(time, time[0] + WINDOW))
+    length = int(np.searchsorted(time, time[0] + _WINDOW))
     starts = range(0, max(len(y) - length, 0) + 1, max(length // 4, 1))
     spans = np.array([np.ptp(np.percentile(y[i : i + length], [5, 95])) for i in starts])  # no single sample
     walks = spans[spans >= smallest]
@@ -129,7 +137,7 @@ def _excursion(time: Array, y: Array, smallest: float) -> float:
 def _prominent(y: Array, height: float, border: float) -> list[int]:
     """Indices of the maxima that rise by `height` on both sides; by `border` on a side that meets an end.
 
-    One pass with a memory of the last extremes: a maximum is certain once the curve has fallen from it by
+    One pass that keeps the last extremes: a maximum is certain once the curve has fallen from it by
     `height`, a minimum once it has risen by as much.
     """
     peaks: list[int] = []
@@ -166,7 +174,7 @@ def _vertex(time: Array, y: Array, i: int) -> float:
 def check_apart(forward: Array) -> None:
     """Raises `GaitError` if left and right foot `(n, 2)` [m] move forward together."""
     left, right = (forward - forward.mean(axis=0)).T
-    if left @ right > TOGETHER * np.linalg.norm(left) * np.linalg.norm(right):
+    if left @ right > _IN_PHASE * np.linalg.norm(left) * np.linalg.norm(right):
         raise GaitError("no gait cycles found: both feet move forward together; in a walk they take turns")
 
 
@@ -189,7 +197,7 @@ def check_turns(events: list[Event], periodic: bool = False) -> None:
     _check_turns(strikes, "heel strikes of the left and the right foot", periodic)
 
 
-def _check_turns(labels: list[str], what: str, periodic: bool) -> None:
+def _check_turns(labels: Sequence[str], what: str, periodic: bool) -> None:
     around = [*labels, *labels[:1]] if periodic else labels
     if any(first == second for first, second in pairwise(around)):
         raise GaitError(f"no gait cycles found: {what} do not take turns")

@@ -1,4 +1,4 @@
-"""Hip angles in one order of axes or another: the same rotation, other numbers."""
+"""Cardan angles of the hip: conversion between rotation orders, and from a rotation matrix."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves over time: derivatives and resampling of samples, periodic or not; runs of marked samples."""
+"""Time series: derivatives, resampling and Fourier interpolation of samples; runs of marked samples."""
 
 from __future__ import annotations
 

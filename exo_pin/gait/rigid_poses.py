@@ -1,4 +1,4 @@
-"""Rigid poses that vary in time: their check, their nearest rotation, turns about axes, angular velocity."""
+"""Rigid poses in time: orthonormality, nearest rotation, Rodrigues' formula, angle, angular velocity."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 
 from exo_pin.arrays import Array
 
-ORTHONORMAL = 1e-6
+_ORTHONORMAL = 1e-6
 """Largest entry of R^T R - I that still counts as a rotation: seven digits, what files carry."""
 
-FARTHEST = 1e6
-"""A pelvis further away than this [m] is a mistake of units."""
+_FARTHEST = 1e6
+"""A position further away than this [m] is a mistake of units."""
 
 
 def not_rigid(T: Array) -> int | None:
@@ -19,7 +19,9 @@ def not_rigid(T: Array) -> int | None:
     R = T[:, :3, :3]
     with np.errstate(invalid="ignore", over="ignore"):  # NaN and huge numbers fail the comparisons below
         skew = np.abs(np.swapaxes(R, 1, 2) @ R - np.eye(3)).max(axis=(1, 2))
-        good = (skew <= ORTHONORMAL) & (np.linalg.det(R) > 0) & (np.abs(T[:, :3, 3]) <= FARTHEST).all(axis=1)
+        good = (
+            (skew <= _ORTHONORMAL) & (np.linalg.det(R) > 0) & (np.abs(T[:, :3, 3]) <= _FARTHEST).all(axis=1)
+        )
     good &= (T[:, 3] == [0.0, 0.0, 0.0, 1.0]).all(axis=1)
     return None if good.all() else int(np.argmin(good))
 
