@@ -79,7 +79,9 @@ def test_cycles_chains_and_imports_of_the_front_door_are_found(structure, packag
 
 
 def test_every_kind_of_module_cache_is_found(structure, package):
-    package(a="@lru_cache\ndef f(): ...\n\n\nKNOWN: dict = {}\nDATA = {1: 2}\nW = weakref.WeakKeyDictionary()\n")
+    package(
+        a="@lru_cache\ndef f(): ...\n\n\nKNOWN: dict = {}\nDATA = {1: 2}\nW = weakref.WeakKeyDictionary()\n"
+    )
     assert len(structure.places()["caches of modules"]) == 3
 
 
