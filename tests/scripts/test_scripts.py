@@ -18,14 +18,14 @@ SCRIPTS = sorted(
 
 
 @pytest.fixture
-def structure(tmp_path):
+def structure(tmp_path, monkeypatch):
     """The script as a module, to measure a package of one's own."""
     loader = SourceFileLoader("structure", str(ROOT / "scripts" / "structure"))
     spec = importlib.util.spec_from_loader("structure", loader)
     assert spec
     module = importlib.util.module_from_spec(spec)
     loader.exec_module(module)
-    module.ROOT = tmp_path
+    monkeypatch.setattr(module, "ROOT", tmp_path)
     return module
 
 
