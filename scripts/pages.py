@@ -1,18 +1,25 @@
-"""Parts of the docs that a script writes: what stands between `<!-- name -->` and `<!-- end -->`."""
+"""Parts of the documentation that scripts write: the text between `<!-- name -->` and `<!-- end -->`."""
 
-import re
+from __future__ import annotations
+
+from collections.abc import Mapping
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 
 
-def rewrite(page, parts):
-    """Replace the named parts of a page of docs/ by these texts; each stands there exactly once."""
-    path = DOCS / page
-    text = path.read_text(encoding="utf-8")
+def replaced(text: str, parts: Mapping[str, str]) -> str:
+    """The page with its named parts replaced; each name stands in the page exactly once."""
     for name, part in parts.items():
         block = f"<!-- {name} -->\n{part.strip()}\n<!-- end -->"
-        pattern = rf"<!-- {re.escape(name)} -->\n.*?<!-- end -->"
-        text, found = re.subn(pattern, lambda _, b=block: b, text, flags=re.DOTALL)
-        assert found == 1, name
-    path.write_text(text, encoding="utf-8")
+        start, end = f"<!-- {name} -->\n", "<!-- end -->"
+        assert text.count(start) == 1, name
+        before, _, rest = text.partition(start)
+        text = before + block + rest.partition(end)[2]
+    return text
+
+
+def rewrite(page: str, parts: Mapping[str, str]) -> None:
+    """Replace the named parts of a page of docs/."""
+    path = DOCS / page
+    path.write_text(replaced(path.read_text(encoding="utf-8"), parts), encoding="utf-8")

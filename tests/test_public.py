@@ -1,6 +1,7 @@
 """The front door: what `import exo_pin` offers, and what it does not load."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -9,6 +10,16 @@ from pathlib import Path
 import exo_pin
 
 ROOT = Path(__file__).resolve().parents[1]
+DISTRIBUTION = {  # name of an import -> name of what is installed, where the two differ
+    "PIL": "pillow",
+    "coal": "pin",
+    "example_robot_data": "example-robot-data",
+    "pinocchio": "pin",
+    "umsgpack": "u-msgpack-python",
+    "yaml": "pyyaml",
+}
+DATA = {"example-robot-data", "meshcat"}
+"""Read as files, never imported: robots' descriptions, the player's JavaScript."""
 HEAVY = ("pinocchio", "meshcat", "yourdfpy", "scipy", "matplotlib", "numpy", "tornado")
 
 
@@ -28,7 +39,7 @@ def test_every_public_name_can_be_imported_and_is_listed():
 def test_type_checkers_see_the_same_names():
     tree = ast.parse((ROOT / "exo_pin" / "__init__.py").read_text())
     block = next(node for node in tree.body if isinstance(node, ast.If))
-    names = {alias.asname for node in block.body for alias in node.names}
+    names = {alias.asname for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names}
     assert names == set(exo_pin.__all__)
 
 
@@ -50,3 +61,22 @@ def test_the_version_is_that_of_the_project():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     assert project["tool"]["hatch"]["version"]["path"] == "exo_pin/version.py"
     assert f"version: {exo_pin.__version__}\n" in (ROOT / "CITATION.cff").read_text()
+
+
+def test_every_package_that_is_imported_is_declared_and_no_other():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    declared = {re.split(r"[^\w-]", wanted)[0].lower() for wanted in project["dependencies"]}
+    names = {
+        name.split(".")[0]
+        for path in (ROOT / "exo_pin").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        for name in _imported(node)
+    }
+    foreign = names - {"exo_pin", "_typeshed"} - set(sys.stdlib_module_names)
+    assert {DISTRIBUTION.get(name, name) for name in foreign} == declared - DATA
+
+
+def _imported(node):
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    return [node.module] if isinstance(node, ast.ImportFrom) and node.module else []

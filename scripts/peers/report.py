@@ -6,8 +6,10 @@ import importlib.util
 import subprocess
 import tempfile
 import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,17 +24,27 @@ from peers.tables import goals, head, reference, table, version
 
 SEED = 20260101
 TITLE = "# Inverse kinematics against its peers"
-IN_THE_RACE = 100.0  # [us] slower solvers are not asked again
+IN_THE_RACE = 100.0  # [us] slower solvers are not timed again
 
 
 class Row:
-    """One line of the main table."""
+    """One line of the main table.
 
-    def __init__(self, name):
-        self.name, self.cells = name, {}
+    Attributes:
+        name: The solver.
+        cells: Column -> what the table shows of it.
+        call: Frames per second of the peer's bare batch call, where it has one.
+        again: Runs the gait job one frame per call once more.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.cells: dict[str, Any] = {}
+        self.call: float | None = None
+        self.again: Callable[[], Any] | None = None
 
 
-def run(*, short, placo, plots=None):
+def run(*, short: bool, placo: Path | None, plots: Path | None = None) -> str:
     rng = np.random.default_rng(SEED)
     robot = load_robot()
     n, budget = (10_000, 1.0) if short else (10_000, 4.0)
@@ -176,8 +188,9 @@ def raw(robot, work, budget):
 def online(robot, job, budget):
     row = Row("**exo_pin Online** (verified, pure Python)")
     loop = ik.Online(robot, job.q[0])
-    row.again = partial(jobs.loop, lambda left, right, _: loop.step(left, right), job, job.q[0], budget / 8)
-    q, times = row.again()
+    again = partial(jobs.loop, lambda left, right, _: loop.step(left, right), job, job.q[0], budget / 8)
+    row.again = again
+    q, times = again()
     row.cells["gait"] = (1 / np.median(times), *jobs.verdict(robot, job, q))
     row.cells["online"] = online_cell(times)
     return row
@@ -187,7 +200,7 @@ def in_turns(rows, rounds=12):
     """One frame per call, one solver after the other in rounds; each keeps its best median and tail."""
     for _ in range(rounds):
         for row in rows:
-            if hasattr(row, "again") and row.cells["online"][0] < IN_THE_RACE:
+            if row.again and row.cells["online"][0] < IN_THE_RACE:
                 row.cells["online"] = np.minimum(row.cells["online"], online_cell(row.again()[1]))
 
 

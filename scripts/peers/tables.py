@@ -42,7 +42,7 @@ def micro(row):
 
 def reference(rows, name, job):
     if name == "EAIK call":
-        return next((r.call for r in rows if hasattr(r, "call")), None)
+        return next((r.call for r in rows if r.call), None)
     found = [r for r in rows if r.name.startswith(name) and job in r.cells]
     return found[0].cells[job][0] if found else None
 

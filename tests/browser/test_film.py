@@ -2,12 +2,13 @@
 
 import base64
 import io
+import shutil
 
 import pytest
 from PIL import Image
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
-from exo_pin.viewer.film import chromium, encode, shots
+from exo_pin.viewer.film import chromium, shots
 
 SMALL = {"size": (320, 240), "quality": "low"}
 
@@ -49,7 +50,7 @@ def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
 
     data = shots.film(scene, tmp_path / "walk.gif", **SMALL, fps=4, progress=progress)
     gif = Image.open(io.BytesIO(data))
-    assert gif.n_frames == len(seen) == round(scene.facts.duration * 4)
+    assert getattr(gif, "n_frames", 0) == len(seen) == round(scene.facts.duration * 4)
     assert gif.info["duration"] == 250
     assert gif.info["loop"] == 0
 
@@ -57,7 +58,7 @@ def test_a_gif_shows_the_walk_once_in_its_own_time(scene, tmp_path):
 @pytest.mark.parametrize("curves", [False, True])
 def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, browser, monkeypatch, curves):
     path = chromium.find()
-    monkeypatch.setattr(encode.shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
+    monkeypatch.setattr(shutil, "which", lambda name: path if name == path else None)  # no ffmpeg
     monkeypatch.setenv("EXO_PIN_CHROMIUM", path)
     data = shots.film(scene, tmp_path / "walk.webm", **SMALL, fps=5, curves=curves)
     assert data.startswith(bytes.fromhex("1a45dfa3"))
@@ -73,7 +74,7 @@ def test_a_webm_of_the_browser_s_own_plays_in_the_walk_s_time(scene, tmp_path, b
 
 
 def test_an_mp4_without_ffmpeg_says_what_is_missing(scene, tmp_path, monkeypatch):
-    monkeypatch.setattr(shots.shutil, "which", lambda name: None)
+    monkeypatch.setattr(shutil, "which", lambda name: None)
     with pytest.raises(ExoPinError, match="ffmpeg"):
         shots.film(scene, tmp_path / "walk.mp4")
 

@@ -103,7 +103,8 @@ def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
 
 def test_the_last_picture_needs_neither_numpy_nor_pinocchio(tmp_path):
     code = (
-        "import sys; from exo_pin.cli import last_picture; last_picture.keep(['replay', '--port=0', '--no-open'], b'x'); "
+        "import sys; from exo_pin.cli import last_picture; "
+        "last_picture.keep(['replay', '--port=0', '--no-open'], b'x'); "
         "s = last_picture.serve(['replay', '--port=0', '--no-open']); s.close(); "
         "bad = {'numpy', 'pinocchio', 'xacro'} & set(sys.modules); sys.exit(str(bad) if bad else 0)"
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import itertools
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -22,7 +23,7 @@ EXACT = 1e-12  # [rad, m] the same numbers on another way
 FILE = 1e-6  # [m] eight digits of degrees in OpenSim's file, seven in the poses
 X, Y, Z = np.eye(3)
 TILT, LIST, ROTATION = ("pelvis_tilt", Z), ("pelvis_list", X), ("pelvis_rotation", Y)
-LEG = {  # joint of the right leg: coordinates with their axes, the place in the parent
+LEG: dict[str, Any] = {  # joint of the right leg: coordinates with their axes, the place in the parent
     "hip": ([("hip_flexion", Z), ("hip_adduction", X), ("hip_rotation", Y)], (-0.06, -0.08, 0.09)),
     "knee": ([("knee_angle", Z)], (0.0, -0.4, 0.0)),
     "ankle": ([("ankle_angle", (-0.105, -0.174, 0.979))], (0.0, -0.4, 0.0)),
@@ -58,8 +59,8 @@ def resting(some):
 
 def spatial(turns, slides, version, slope):
     turns, slides = ([*some, *resting(some)][:3] for some in (turns, slides))
-    rows = [axis("rotation", k, *turn, version, slope) for k, turn in enumerate(turns)]
-    rows += [axis("translation", k, *slide, version) for k, slide in enumerate(slides)]
+    rows = [axis("rotation", k, name, v, version, slope) for k, (name, v) in enumerate(turns)]
+    rows += [axis("translation", k, name, v, version) for k, (name, v) in enumerate(slides)]
     return f"<SpatialTransform>{''.join(rows)}</SpatialTransform>"
 
 

@@ -342,7 +342,7 @@ def test_no_motion_breaks_it(robot, rng):
         base = np.tile(np.eye(4), (n, 1, 1))
         base[:, :3, 3] = np.cumsum(0.02 * rng.normal(size=(n, 3)), axis=0)
         gait = Gait(t, q, base=base if k % 2 else None, periodic=k % 5 == 0)
-        found = ()
+        found: tuple[Event, ...] = ()
         with contextlib.suppress(GaitError):  # nothing else may come out of it
             found = events(robot, gait)
         assert all(gait.time[0] <= event.time <= gait.time[0] + gait.duration for event in found)

@@ -164,7 +164,9 @@ def test_a_robot_with_other_limits_is_answered_within_them(robot, name):
     narrow = load_robot(Body.from_stature(1.7, left_thigh=0.43, right_shank=0.40, limits=limits))
     with pytest.raises(ConvergenceError) as caught:
         ik.solve(narrow, targets)
-    narrow.check_limits(caught.value.solution.q, tolerance=0.0)
+    best = caught.value.solution
+    assert isinstance(best, ik.Solution)
+    narrow.check_limits(best.q, tolerance=0.0)
 
 
 def test_a_leg_that_is_turned_as_a_whole_keeps_its_closed_form(robot, rng):
