@@ -18,7 +18,6 @@ from exo_pin import cache, viewer
 from exo_pin.cli import last_picture
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.page.bundle import bundle
 
 PATIENCE = 30.0  # [s]: what a busy machine may take
 
@@ -78,7 +77,7 @@ def free_port():
 def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, monkeypatch, free_port):
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
     mine = ("--port", str(free_port), "--no-wearer")
-    older = bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
+    older = viewer.bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
     last_picture.keep(words(*mine), older)
     with replaying(tmp_path, *mine) as process:
         first, second = first_messages(free_port, 2)
@@ -103,7 +102,8 @@ def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
 
 def test_the_last_picture_needs_neither_numpy_nor_pinocchio(tmp_path):
     code = (
-        "import sys; from exo_pin.cli import last_picture; last_picture.keep(['replay', '--port=0', '--no-open'], b'x'); "
+        "import sys; from exo_pin.cli import last_picture; "
+        "last_picture.keep(['replay', '--port=0', '--no-open'], b'x'); "
         "s = last_picture.serve(['replay', '--port=0', '--no-open']); s.close(); "
         "bad = {'numpy', 'pinocchio', 'xacro'} & set(sys.modules); sys.exit(str(bad) if bad else 0)"
     )
