@@ -1,4 +1,4 @@
-"""Mesh files as triangles: STL, OBJ and COLLADA, one entry in READERS per kind; geometry and colours alone.
+"""Mesh files as triangles: STL, OBJ and COLLADA, one entry in a table per kind; geometry and colours alone.
 
 Nothing that a mesh file names (textures, material libraries) is opened.
 """
@@ -28,10 +28,10 @@ class MeshPart:
     """Triangles of one colour.
 
     Attributes:
-        vertices: `(v, 3)` in the file's own unit, scaled to metres where the file tells it.
+        vertices: `(v, 3)` in the file's own unit, scaled to metres where the file names its unit.
         faces: `(f, 3)` rows of vertices.
         color: Red, green, blue, opacity, or None where the file names none.
-        y_up: Whether the file says that its y points up; most tools do not care.
+        y_up: Whether the file says that its y points up; most tools ignore it.
     """
 
     vertices: Array
@@ -47,11 +47,11 @@ def read(path: Path) -> list[MeshPart]:
         FormatError: It cannot be read, is of no known kind, or is damaged.
     """
     kind = path.suffix.lower()
-    if kind not in READERS:
-        raise FormatError(path, f"{kind or 'no ending'} is no mesh; {', '.join(READERS)} are accepted")
+    if kind not in _READERS:
+        raise FormatError(path, f"{kind or 'no ending'} is no mesh; {', '.join(_READERS)} are accepted")
     data = read_bytes(path)
     try:
-        parts = READERS[kind](data)
+        parts = _READERS[kind](data)
     except (ValueError, LookupError, OverflowError, ET.ParseError) as error:
         raise FormatError(path, f"is damaged: {error}") from None
     for part in parts:
@@ -62,6 +62,15 @@ def read(path: Path) -> list[MeshPart]:
 
 def stl(data: bytes) -> list[MeshPart]:
     """An STL file, binary or text."""
+    return [_welded(stl_corners(data))]
+
+
+def stl_corners(data: bytes) -> Array:
+    """Corners `(3 f, 3)` of the triangles of an STL file, three a triangle, in the file's own unit.
+
+    Raises:
+        ValueError: It is damaged.
+    """
     count = int.from_bytes(data[_HEAD - 4 : _HEAD], "little")
     if len(data) >= _HEAD and len(data) >= _HEAD + count * _BINARY.itemsize and not _is_text(data, count):
         corners = np.frombuffer(data, _BINARY, count, _HEAD)["corners"].reshape(-1, 3)
@@ -71,8 +80,7 @@ def stl(data: bytes) -> list[MeshPart]:
             raise ValueError("neither a binary nor a text STL")
         starts = np.flatnonzero(np.array(words, dtype=object) == "vertex")
         corners = np.array([words[k + 1 : k + 4] for k in starts], dtype=float).reshape(-1, 3)
-    corners = corners[: len(corners) // 3 * 3].astype(float)
-    return [_welded(corners)]
+    return np.asarray(corners[: len(corners) // 3 * 3], dtype=float)
 
 
 def obj(data: bytes) -> list[MeshPart]:
@@ -102,14 +110,14 @@ def dae(data: bytes) -> list[MeshPart]:
     return [_used(vertices, faces, color, y_up) for vertices, faces, color in found]
 
 
-READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
+_READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
     {".stl": stl, ".obj": obj, ".dae": dae}
 )
 """What reads the content of a file, by its ending."""
 
 
 def _is_text(data: bytes, count: int) -> bool:
-    """A binary file has exactly the size that it says, or does not begin as a text."""
+    """Whether it begins as a text file and has not the size that a binary file's header gives."""
     return data.startswith(b"solid") and len(data) != _HEAD + count * _BINARY.itemsize
 
 
