@@ -10,7 +10,7 @@ from exo_pin import crosscheck, edit
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.demand import ACCELERATION_LIMIT, PeakDemand, RangeDemand, joint_demands, range_demands
 from exo_pin.feasible import feasible
-from exo_pin.gait import Gait, Torques, normative_gait
+from exo_pin.gait import Gait, Torques, normative_gait, time_series
 from exo_pin.robot import load_robot
 
 GAIT = normative_gait().resampled(50)
