@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from exo_pin.compare.comparison import Comparison
@@ -84,17 +85,16 @@ def conditions(comparison: Comparison) -> str:
 
 
 def _row(best: Loss, copied: Loss) -> list[str]:
-    facts = best.facts()
     values = [
-        facts["sole_error_mm"]["rms"],
-        facts["sole_error_mm"]["max"],
-        facts["position_error_mm"]["rms"],
-        facts["rotation_error_deg"]["rms"],
+        1e3 * best.sole_spread.rms,
+        1e3 * best.sole_spread.max,
+        1e3 * best.position_spread.rms,
+        math.degrees(best.rotation_spread.rms),
         1e3 * copied.rms,
         1e3 * best.step_width_lost,
         1e3 * best.clearance_lost,
-        facts["angle_change_deg"]["knee_flexion"],
-        facts["com_error_mm"],
+        math.degrees(best.angle_change["knee_flexion"]),
+        1e3 * best.com_error,
     ]
     return [best.device.name, str(best.device.motors), *map(_fixed, values)]
 

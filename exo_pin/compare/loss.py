@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,13 @@ from exo_pin.gait.rigid import angle_of
 
 WATCHED = ("hip_flexion", "knee_flexion")
 """Movements whose change against the recorded walk is told."""
+
+
+class Spread(NamedTuple):
+    """Root mean square and largest value of an error, in its own unit."""
+
+    rms: float
+    max: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +63,21 @@ class Loss:
     def rms(self) -> float:
         """Root mean square of `sole_error` over both feet and the walk [m]: what devices are ranked by."""
         return root_mean_square(self.sole_error)
+
+    @property
+    def sole_spread(self) -> Spread:
+        """Of `sole_error` [m]."""
+        return _spread(self.sole_error)
+
+    @property
+    def position_spread(self) -> Spread:
+        """Of `position_error` [m]."""
+        return _spread(self.position_error)
+
+    @property
+    def rotation_spread(self) -> Spread:
+        """Of `rotation_error` [rad]."""
+        return _spread(self.rotation_error)
 
     def in_phases(self, errors: Array) -> dict[str, float]:
         """Root mean square of errors (n, 2) in each phase of the foot's own cycle; NaN without events."""
@@ -126,9 +148,9 @@ class Loss:
         return {
             "device": self.device.name,
             "motors": self.device.motors,
-            "sole_error_mm": _spread(self.sole_error, 1e3),
-            "position_error_mm": _spread(self.position_error, 1e3),
-            "rotation_error_deg": _spread(self.rotation_error, degree),
+            "sole_error_mm": _scaled(self.sole_spread, 1e3),
+            "position_error_mm": _scaled(self.position_spread, 1e3),
+            "rotation_error_deg": _scaled(self.rotation_spread, degree),
             "sole_error_by_phase_mm": self._phases(self.sole_error, 1e3),
             "position_error_by_phase_mm": self._phases(self.position_error, 1e3),
             "rotation_error_by_phase_deg": self._phases(self.rotation_error, degree),
@@ -185,5 +207,9 @@ def number(value: float) -> float | None:
     return None if np.isnan(value) else float(value)
 
 
-def _spread(values: Array, scale: float) -> dict[str, float]:
-    return {"rms": scale * root_mean_square(values), "max": scale * float(values.max())}
+def _spread(values: Array) -> Spread:
+    return Spread(root_mean_square(values), float(values.max()))
+
+
+def _scaled(spread: Spread, scale: float) -> dict[str, float]:
+    return {"rms": scale * spread.rms, "max": scale * spread.max}

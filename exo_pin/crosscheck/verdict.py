@@ -63,17 +63,16 @@ class Check:
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain numbers for JSON: metres, radians and degrees as the names say."""
-        track, within = self.recovery.track, self.recovery.within
-        angles = np.degrees(np.abs(self.recovery.angle_error[self.recovery.comparable]))
+        found = self.recovery
         return {
             "fk_max_difference": self.fk,
             "ik": {
-                "frames": len(track.q),
-                "frames_within_limits": int(within.sum()),
-                "converged": int(track.converged.sum()),
-                "max_position_error_m": float(track.position_error[within].max(initial=0.0)),
-                "max_rotation_error_rad": float(track.rotation_error[within].max(initial=0.0)),
-                "max_angle_error_deg": float(angles.max(initial=0.0)),
+                "frames": len(found.track),
+                "frames_within_limits": int(found.within.sum()),
+                "converged": int(found.track.converged.sum()),
+                "max_position_error_m": found.largest_position_error,
+                "max_rotation_error_rad": found.largest_rotation_error,
+                "max_angle_error_deg": float(np.degrees(found.largest_angle_error)),
                 "method_agreement_deg": float(np.degrees(self.agreement)),
             },
             "limits": {

@@ -101,11 +101,12 @@ COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
 MOTIONS = ("best", "copy")
 """The two rows of every device on every walk."""
 
-_NUMBERS: Mapping[Any, Callable[[str], Any]] = {
+_READERS: Mapping[type, Callable[[str], Any]] = {
     int: int,
     float: lambda cell: float(cell) if cell else math.nan,
 }
-_READ = tuple(_NUMBERS.get(kind, str) for kind in get_type_hints(Row).values())
+_TYPES = get_type_hints(Row)
+_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in COLUMNS)
 
 
 def phase_column(phase: str) -> str:
@@ -151,7 +152,7 @@ def load(path: str | Path, *, torn: bool = False) -> list[Row]:
     rows = []
     for line in lines:
         try:
-            values = [read(cell) for read, cell in zip(_READ, line, strict=True)]
+            values = [read(cell) for read, cell in zip(_COLUMN_READERS, line, strict=True)]
         except ValueError as error:
             raise FormatError(path, f"not a row of a study: {error}", line=lines.line_num) from None
         rows.append(Row(**dict(zip(COLUMNS, values, strict=True))))

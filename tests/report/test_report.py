@@ -14,13 +14,18 @@ import pytest
 from exo_pin import cli, crosscheck, feasible, ik, report
 from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.errors import DescriptionError
-from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
+from exo_pin.gait import Event, Gait, Torques, leg_cycles, normative_gait, normative_sd, stance_times
 from exo_pin.gait.heading import turned
-from exo_pin.kinematics import center_of_mass, spatiotemporal
+from exo_pin.kinematics import (
+    center_of_mass,
+    deviation_from_parallel,
+    joint_frames,
+    joint_rates,
+    spatiotemporal,
+)
 from exo_pin.report.document import blocks
-from exo_pin.report.draw import chart, chart_axis, leg_cycles, panels, skeleton, svg
-from exo_pin.report.sections import angles, fact_tables, ik_loop, noise
-from exo_pin.report.sections.joint_rates import motion
+from exo_pin.report.draw import chart, chart_axis, skeleton, svg
+from exo_pin.report.sections import angles, fact_tables
 from exo_pin.robot import load_robot, load_urdf
 
 EVIL = '<script>alert("x")</script>&'
@@ -52,8 +57,8 @@ def recording(gait):
 
 @pytest.fixture(scope="module")
 def document(robot, gait):
-    about = report.About(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
-    return report.walk(robot, gait, about=about, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")
+    info = report.ReportInfo(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
+    return report.walk(robot, gait, info=info, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")
 
 
 @pytest.fixture(scope="module")
@@ -258,7 +263,7 @@ def test_the_filter_is_stated_when_it_is_off_or_refuses(robot, recording):
 
 def test_rounded_times_do_not_keep_the_filter_from_its_work(robot, recording):
     times = recording.time, np.round(recording.time, 3)
-    even, rounded = (motion(robot, replace(recording, time=t, events=()), 6.0) for t in times)
+    even, rounded = (joint_rates(robot, replace(recording, time=t, events=()), cutoff=6.0) for t in times)
     assert "on an even grid" in rounded.how
     assert "on an even grid" not in even.how
     np.testing.assert_allclose(rounded.dq, even.dq, atol=0.2)
@@ -277,14 +282,14 @@ def test_a_robot_without_a_body_is_refused(robot, gait):
 
 
 def test_legs_of_a_normal_walk_are_its_curves(gait):
-    left, right = leg_cycles.legs(gait)
+    left, right = leg_cycles(gait)
     np.testing.assert_allclose(left.q[:-1], gait.q[:, :6], atol=FOURIER)
     np.testing.assert_allclose(right.q[:-1], np.roll(gait.q[:, 6:], -50, axis=0), atol=FOURIER)
     assert left.stance == pytest.approx(59.0)
 
 
 def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(recording):
-    left, _ = leg_cycles.legs(recording)
+    left, _ = leg_cycles(recording)
     assert left.sd is not None
     assert left.sd.max() < 1e-3  # the cycles are copies; resampling differs a little
     keep = recording.time < 0.6 * recording.time[-1] / 2.5
@@ -295,21 +300,21 @@ def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(rec
         base=recording.base[keep],
         events=[e for e in recording.events if e.time <= recording.time[keep][-1]],
     )
-    estimated = leg_cycles.legs(step)
+    estimated = leg_cycles(step)
     assert all("no whole cycle" in leg.note for leg in estimated)
     T = 2 * (step.events[2].time - step.events[0].time)
     np.testing.assert_allclose(np.nanmax(estimated[0].percent), 100 * step.time[-1] / T)
 
 
 def test_stance_is_closed_at_the_ends_of_a_recording_and_around_a_cycle(gait):
-    assert panels.stance_intervals(gait, "left") == [(0.0, pytest.approx(0.59 * gait.duration))]
-    (first, second) = panels.stance_intervals(gait, "right")
+    assert stance_times(gait, "left") == ((0.0, pytest.approx(0.59 * gait.duration)),)
+    (first, second) = stance_times(gait, "right")
     assert first[0] == 0.0
     assert second[1] == pytest.approx(gait.duration)
     events = [Event(0.3, "toe_off", "left"), Event(0.7, "heel_strike", "left")]
     walk = Gait(np.linspace(0, 1, 20), np.zeros((20, 12)), events=events)
-    assert panels.stance_intervals(walk, "left") == [(0.0, 0.3), (0.7, 1.0)]
-    assert panels.stance_intervals(walk, "right") == []
+    assert stance_times(walk, "left") == ((0.0, 0.3), (0.7, 1.0))
+    assert stance_times(walk, "right") == ()
 
 
 def test_the_band_is_the_normal_walk_and_its_spread():
@@ -333,7 +338,7 @@ def test_a_limit_off_the_axis_is_named_in_the_legend_all_the_same():
     curve = chart.Curve([0, 1], [-1, 1], "#123456")
 
     def legend(*ends):
-        levels = tuple(chart.Level(y, "#654321", "most", told=True) for y in ends)
+        levels = tuple(chart.Level(y, "#654321", "most", always_in_legend=True) for y in ends)
         drawing = chart.draw(chart.Chart(title="t", curves=(curve,), levels=levels, y_range=(-2, 2)))
         return [e.text for e in elements(drawing, "text") if "most" in (e.text or "")]
 
@@ -366,9 +371,9 @@ def test_gaps_of_a_line_stay_gaps_and_numbers_are_short():
 
 
 def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
-    frames = skeleton.joint_frames(robot)
+    frames = joint_frames(robot)
     assert [name for name, _, _ in frames] == ["body", *JOINTS]
-    assert skeleton.frames_parallel(robot) < 1e-15
+    assert deviation_from_parallel(robot) < 1e-15
     axes = {name: axis for name, _, axis in frames[1:]}
     for movement, mirrored in zip(MOVEMENTS, (1, -1, -1, 1, 1, -1), strict=True):
         np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
@@ -402,28 +407,28 @@ def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):
 
 
 def test_the_loops_error_falls_to_the_tolerance(robot, gait):
-    errors = ik_loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
+    errors = crosscheck.errors_by_step(robot, gait, 30, tolerance=1e-9)
     assert errors[-1] <= 1e-9 < errors[-2]
     assert errors[0] > 0.1
 
 
 def test_own_feet_are_exact_and_noise_grows_with_its_size(robot, gait):
-    own = noise.exact(robot, gait, "own", ik.Dls())
-    assert max(own.largest().values()) < 1e-6
-    one, three = (noise.noisy(robot, gait, sd) for sd in (1e-3, 3e-3))
+    own = crosscheck.recover(robot, gait, settings=ik.Dls())
+    assert max(own.largest_by_movement().values()) < 1e-6
+    one, three = (crosscheck.recover_noisy(robot, gait, sd) for sd in (1e-3, 3e-3))
     for movement in ("hip_adduction", "hip_rotation"):  # far from singular: errors are linear in the noise
-        ratio = three.rms()[movement] / one.rms()[movement]
+        ratio = three.rms_by_movement()[movement] / one.rms_by_movement()[movement]
         assert ratio == pytest.approx(3, rel=EVEN)
-    calm = noise.noisy(robot, gait, 3e-3, damping=noise.CALM)
-    assert calm.rms()["knee_flexion"] < three.rms()["knee_flexion"]
+    damped = crosscheck.recover_noisy(robot, gait, 3e-3, damping=0.05)
+    assert damped.rms_by_movement()["knee_flexion"] < three.rms_by_movement()["knee_flexion"]
 
 
 def test_the_page_of_the_paper_says_what_is_computed(paper, robot, gait):
     assert [s.title.split(":")[0] for s in paper.sections[1:]] == [f"Fig. {k}" for k in range(1, 7)]
     rows = table(paper, "Fig. 6: recovered against given joint curves")
-    answer = noise.noisy(robot, gait, 1e-3)
+    answer = crosscheck.recover_noisy(robot, gait, 1e-3)
     shown = rows["feet with 1 mm noise"]
-    assert float(shown[3]) == pytest.approx(np.degrees(answer.rms()["knee_flexion"]), abs=5e-3)
+    assert float(shown[3]) == pytest.approx(np.degrees(answer.rms_by_movement()["knee_flexion"]), abs=5e-3)
     assert shown[8] == f"{int(answer.track.converged.sum())} of {len(gait)}"
     text = unescape(report.html(paper))
     assert "no browser rendered the model in this run" in text
@@ -475,7 +480,7 @@ def test_without_a_browser_the_model_is_a_line_drawing_and_that_is_said(tmp_path
 
 
 def test_rendered_pictures_are_inside_the_page_and_files_beside_it(robot, gait):
-    document = report.reproduction(robot, gait, rendered=report.Rendered(model=b"one", poses=b"two"))
+    document = report.reproduction(robot, gait, rendered=report.RenderedPictures(model=b"one", poses=b"two"))
     files = {d.file: d.data for d in document.drawings}
     assert (files["fig3_model.png"], files["fig5_rendered.png"]) == (b"one", b"two")
     text = report.html(document)

@@ -11,7 +11,7 @@ import pytest
 from exo_pin import report, study
 from exo_pin.compare import Conditions
 from exo_pin.report.draw.heat import heat, strips
-from exo_pin.report.draw.palette import coincident, looks
+from exo_pin.report.draw.palette import coincident, line_styles
 
 EVIL = '<script>alert("x")</script>'
 
@@ -82,8 +82,8 @@ def test_strips_have_a_dot_for_each_number_within_the_picture():
     assert all(0 < x < 520 for x in dots)
 
 
-def test_curves_on_each_other_are_one_and_looks_are_told_apart():
+def test_curves_on_each_other_are_one_and_styles_differ():
     nan = math.nan
     series = {"a": np.array([1.0, nan]), "b": np.array([1.001, nan]), "c": np.array([1.0, 2.0])}
     assert coincident(series, 0.01) == [("a", "b"), ("c",)]
-    assert len(set(looks(map(str, range(9))).values())) == 9
+    assert len(set(line_styles(map(str, range(9))).values())) == 9

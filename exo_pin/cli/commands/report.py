@@ -74,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
     gait, note = options.with_events(load_robot(body), gait)
     robot = load_robot(body, device=args.device, hip_order=args.hip_order)
     name = Path(args.gait).name
-    about = report.About(
+    info = report.ReportInfo(
         title=args.title or f"Gait report: {name}",
         who=args.who,
         what=name,
@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
         document = report.walk(
             robot,
             gait,
-            about=about,
+            info=info,
             player=player,
             still=still,
             normal=None if args.normal == "none" else args.normal,

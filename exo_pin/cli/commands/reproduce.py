@@ -15,7 +15,7 @@ from exo_pin.files import write_bytes, write_text
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
-    from exo_pin.report import Rendered
+    from exo_pin.report import RenderedPictures
     from exo_pin.robot import Robot
 
 _EXAMPLES = """examples:
@@ -89,14 +89,14 @@ def _folder(name: str) -> Path:
     return folder
 
 
-def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
+def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> RenderedPictures:
     """The model and ten poses by the browser; nothing where there is none, and a line that says so."""
     from exo_pin import viewer
-    from exo_pin.report import Rendered
+    from exo_pin.report import RenderedPictures
     from exo_pin.viewer.film import shots
 
     if args.no_render:
-        return Rendered()
+        return RenderedPictures()
     scene = viewer.scene(robot, gait, title="the walk")
     look: dict[str, Any] = {"quality": args.quality}
     phases = [k / _POSES for k in range(_POSES)]
@@ -105,8 +105,8 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
         poses = shots.pictures(scene, phases, camera="left", size=_POSE, legend=False, **look)
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
-        return Rendered()
-    return Rendered(model=model, poses=_sheet(poses))
+        return RenderedPictures()
+    return RenderedPictures(model=model, poses=_sheet(poses))
 
 
 def _sheet(shots: Sequence[bytes]) -> bytes:

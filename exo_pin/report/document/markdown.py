@@ -1,12 +1,12 @@
-"""A document as Markdown; its drawings are files beside it."""
+"""A document as Markdown; its drawings are separate files beside it."""
 
 from __future__ import annotations
 
-from exo_pin.report.document.blocks import Block, Document, Figure, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Section, Table, Tiles
 
 
 def markdown(document: Document) -> str:
-    """The document as Markdown text; a player has no place in it and is left out."""
+    """The document as Markdown text, without players."""
     parts = [f"# {_plain(document.title)}", _plain(document.subtitle)]
     parts += [_section(section) for section in document.sections]
     return "\n\n".join(parts) + "\n"
@@ -18,7 +18,7 @@ def _section(section: Section) -> str:
 
 
 def _block(block: Block) -> str:
-    if isinstance(block, Words):
+    if isinstance(block, Paragraph):
         return _plain(block.text)
     if isinstance(block, Table):
         return _table(block)

@@ -1,4 +1,4 @@
-"""A study as a page: what devices lose against stature, speed and phase, and of every recording."""
+"""A study of devices: their losses against stature, speed and phase, and for every recording."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ from exo_pin.anatomy.human import DEFAULT_STATURE
 from exo_pin.arrays import Array
 from exo_pin.gait import SPEEDS
 from exo_pin.gait.phases import PHASES
-from exo_pin.report.document.blocks import Block, Document, Drawing, Figure, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Section, Table, Tiles
 from exo_pin.report.draw import palette
 from exo_pin.report.draw.chart import Chart, draw
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.draw.heat import heat, strips
 from exo_pin.study import Row, summary
 from exo_pin.study.study_table import phase_column
 
-_SAME = 0.01  # [mm] curves nearer than this to each other are drawn as one
+_SAME = 0.01  # [mm] curves closer than this are drawn as one
 _MOST = 40  # recordings in a table
 _PELVIS = {"recorded": "the pelvis moves as recorded", "device": "the pelvis as the device holds it"}
 
@@ -66,7 +67,7 @@ def _summary(rows: Sequence[Row], best: Sequence[Row], failures: Mapping[str, st
     table = Table(
         *summary(rows), "Sole error of the best motion, rms over a walk [mm]; mean and worst of all walks"
     )
-    return Section("Summary", (Tiles(tiles), Words(words), table))
+    return Section("Summary", (Tiles(tiles), Paragraph(words), table))
 
 
 def _by_stature(rows: Sequence[Row]) -> Section:
@@ -107,7 +108,7 @@ def _by_phase(rows: Sequence[Row]) -> Section:
         cells = {name: found[name] for name in _devices(mine)}
         title = f"Sole error, rms [mm]: {speed}, {stature:.2f} m, {_PELVIS[pelvis]}"
         drawings.append(heat(f"phases_{pelvis}", title, [p.replace("pre-", "pre- ") for p in PHASES], cells))
-    caption = "Phases of the foot's own cycle (Perry 1992), told by its heel strike and toe-off."
+    caption = "Phases of the foot's own cycle (Perry 1992), from its heel strikes and toe-offs."
     return Section("By phase of the cycle", (Figure(tuple(drawings), caption, columns=2),))
 
 
@@ -128,7 +129,7 @@ def _feet(rows: Sequence[Row]) -> Section:
     note = (
         "Recorded minus the device's: blue cells are negative, a wider step or a foot that is lifted higher."
     )
-    return Section("Step width and clearance", (*figures, Words(note, "note")))
+    return Section("Step width and clearance", (*figures, Paragraph(note, "note")))
 
 
 def _recordings(rows: Sequence[Row]) -> Section:
@@ -180,7 +181,7 @@ def _conditions(rows: Sequence[Row]) -> Section:
         (
             Table(("condition", ""), facts, prose=True),
             Table(("walk", "source"), sources, prose=True),
-            Words("The errors are of the feet's pose and of nothing else: forces are not asked.", "note"),
+            Paragraph("The errors are those of the feet's pose alone; forces are not considered.", "note"),
         ),
     )
 
@@ -188,8 +189,9 @@ def _conditions(rows: Sequence[Row]) -> Section:
 def _chart(
     name: str, title: str, x_label: str, x: Array, series: dict[str, Array], rows: Sequence[Row]
 ) -> Drawing:
-    looks = palette.looks(dict.fromkeys(row.device for row in rows))  # a device looks the same in all charts
-    curves = palette.curves(x, series, looks, same=_SAME)
+    # by all rows, so that a device has the same style in all charts
+    styles = palette.line_styles(dict.fromkeys(row.device for row in rows))
+    curves = palette.curves(x, series, styles, same=_SAME)
     top = max(float(np.nanmax(values)) for values in series.values())
     chart = Chart(
         title=title, x_label=x_label, curves=curves, y_range=(0, 1.08 * max(top, 1.0)), width=520, height=270
@@ -206,7 +208,7 @@ def _series(rows: Sequence[Row], place: Callable[[Row], float]) -> tuple[Array, 
 
 
 def _pelvises(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
-    """The rows of each reading of the pelvis."""
+    """The rows by who moves the pelvis."""
     found = list(rows)
     return [(name, mine) for name in _PELVIS if (mine := [row for row in found if row.pelvis == name])]
 

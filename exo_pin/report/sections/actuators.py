@@ -7,9 +7,9 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.feasible import ACCELERATION
 from exo_pin.gait import Gait, Torques
-from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
-from exo_pin.report.draw import panels
-from exo_pin.report.sections.joint_rates import JointRates
+from exo_pin.kinematics import JointRates
+from exo_pin.report.document.blocks import Block, Figure, Paragraph, Section, Table
+from exo_pin.report.draw import walk_charts
 from exo_pin.robot import Robot
 
 
@@ -44,15 +44,17 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
     hardest = dict.fromkeys(names, ACCELERATION)
     blocks: tuple[Block, ...] = (
         Figure(
-            panels.by_movement(gait, found.dq, names, "velocity", "rad/s", limits=speeds, limit="actuator")
+            walk_charts.by_movement(
+                gait, found.dq, names, "velocity", "rad/s", limits=speeds, limit="actuator"
+            )
         ),
         Figure(
-            panels.by_movement(
+            walk_charts.by_movement(
                 gait, found.ddq, names, "acceleration", "rad/s²", limits=hardest, limit="limit"
             )
         ),
         Table(columns, rows, "Peak rates against the actuators"),
-        Words(note, "note"),
+        Paragraph(note, "note"),
     )
     return Section("Velocities and accelerations", blocks)
 
@@ -86,11 +88,11 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
         "have torques, linear between those of the file. Positive drives the joint the way its name says "
         "(muscles' or motors' torque). Per kg of the person. Used: by an actuator that does it alone."
     )
-    charts = panels.by_movement(
+    charts = walk_charts.by_movement(
         gait, tau, names, "torque", "N m", limits=effort, limit="actuator", least=10.0
     )
     table = Table(columns, rows, "Torques against the actuators")
-    return Section("Torques", (Figure(charts), table, Words(note, "note")))
+    return Section("Torques", (Figure(charts), table, Paragraph(note, "note")))
 
 
 def _peaks(name: str, tau: np.ndarray, has: float, mass: float) -> list[str]:
