@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, Body
+from exo_pin.anatomy.names import Speed
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import schwartz2008_sd as spread
@@ -15,7 +16,7 @@ from exo_pin.gait.gait import Gait
 from exo_pin.gait.schwartz2008 import ANGLES, ANKLE_INVERSION, HARMONICS, TIMING
 from exo_pin.physics import GRAVITY
 
-SPEEDS = tuple(ANGLES)
+SPEEDS: tuple[Speed, ...] = ("very_slow", "slow", "free", "fast", "very_fast")
 """`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
 
 SOURCE = "Schwartz 2008"

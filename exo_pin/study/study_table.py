@@ -1,4 +1,4 @@
-"""The table of a study: one row for each walk, body, device, condition and way of moving; as CSV."""
+"""The table of a study as CSV: one row for each walk, body, device, condition and kind of motion."""
 
 from __future__ import annotations
 
@@ -9,11 +9,17 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, Literal, get_type_hints
 
-from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.names import PassiveJoints, PelvisMotion, Sex
 from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
+
+Motion = Literal["best", "copy"]
+"""The least-squares best towards the recorded soles, or the plain copy of the joints."""
+
+MOTIONS: tuple[Motion, ...] = ("best", "copy")
+"""The two rows of every device on every walk."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,12 +28,12 @@ class Row:
 
     Attributes:
         gait: Name of the speed, or path of the recording within its folder.
-        source: Where the walk's numbers come from.
+        source: Of the walk's numbers.
         samples: Of the walk.
         duration_s: Of the walk; a periodic walk's stride time.
         stature_m: Of the body.
         mass_kg: Of the body, without the device.
-        sex: Whose segment masses.
+        sex: Whose average segment masses the body has.
         device: Name of the device.
         motors: Number of its motors.
         pelvis: `"recorded"`: it moves as the walker's; `"device"`: as the device holds it.
@@ -50,10 +56,10 @@ class Row:
         step_width_lost_mm: Recorded minus the device's.
         clearance_mm: Least height of the swinging sole over the standing one in mid swing.
         clearance_lost_mm: Recorded minus the device's.
-        hip_change_deg: Largest difference of hip flexion from the angle asked for.
+        hip_change_deg: Largest difference of hip flexion from the required angle.
         knee_change_deg: The same of knee flexion.
         com_rms_mm: Distance of the centre of mass from the recorded walk's, root mean square.
-        doubts: Reasons to doubt how the recording was read; empty for a usual walk.
+        doubts: Warnings about how the recording was read; empty for a usual walk.
         version: Of exo_pin.
         inputs: Fingerprint of exo_pin's code, walk, body, device and conditions: equal inputs, equal rows.
     """
@@ -67,9 +73,9 @@ class Row:
     sex: Sex
     device: str
     motors: int
-    pelvis: str
-    passive: str
-    motion: str
+    pelvis: PelvisMotion
+    passive: PassiveJoints
+    motion: Motion
     sole_rms_mm: float
     sole_max_mm: float
     foot_rms_mm: float
@@ -97,9 +103,6 @@ class Row:
 
 COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
 """Names of the columns, in order."""
-
-MOTIONS = ("best", "copy")
-"""The two rows of every device on every walk."""
 
 _READERS: Mapping[type, Callable[[str], Any]] = {
     int: int,
@@ -133,21 +136,21 @@ def save(rows: Iterable[Row], path: str | Path) -> None:
     write_text(path, text(rows))
 
 
-def load(path: str | Path, *, torn: bool = False) -> list[Row]:
+def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
     """Read rows that `save` has written.
 
     Args:
         path: The file.
-        torn: Whether the last line may be unfinished, as a killed study leaves it; it is then left out.
+        unfinished: The last line may be cut short, as a killed study leaves it; it is then left out.
 
     Raises:
         FormatError: The file cannot be read, or is no table of a study.
     """
     content = read_text(path)
-    if torn:
+    if unfinished:
         content = content[: content.rfind("\n") + 1]
     lines = csv.reader(io.StringIO(content))
-    if tuple(next(lines, ())) != COLUMNS and not (torn and not content):
+    if tuple(next(lines, ())) != COLUMNS and not (unfinished and not content):
         raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
     rows = []
     for line in lines:
@@ -162,4 +165,4 @@ def load(path: str | Path, *, torn: bool = False) -> list[Row]:
 def _cell(value: str | int | float) -> str:
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
-    return " ".join(str(value).split())  # one row is one line, so that a torn one is seen
+    return " ".join(str(value).split())  # one row is one line, so that an unfinished row is recognised
