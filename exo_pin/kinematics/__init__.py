@@ -2,6 +2,7 @@
 
 from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.contact import Contacts, contacts, events, with_events
+from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
@@ -11,12 +12,14 @@ from exo_pin.kinematics.walk_numbers import WalkNumbers, walk_numbers
 __all__ = [
     "CenterOfMass",
     "Contacts",
+    "CurveOutlier",
     "JointRates",
     "WalkNumbers",
     "accelerations",
     "attitude",
     "center_of_mass",
     "contacts",
+    "curve_outliers",
     "deviation_from_parallel",
     "events",
     "jacobian",

@@ -315,7 +315,7 @@ def test_the_command_ends_on_ctrl_c_with_a_line(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr("exo_pin.study.run", interrupted)
     assert main(["study", "-o", str(tmp_path / "s.csv")]) == 130
-    assert "the same command goes on" in capsys.readouterr().err
+    assert "the same command continues" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
