@@ -5,14 +5,14 @@
 
 from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.parallel import Study, part, run
-from exo_pin.study.plan import STATURES, STEP, bodies, plan, recordings, statures
-from exo_pin.study.study_table import COLUMNS, Row, load, save
+from exo_pin.study.plan import STATURE_RANGE, STATURE_STEP, bodies, plan, recordings, statures
+from exo_pin.study.study_table import TABLE_COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
 
 __all__ = [
-    "COLUMNS",
-    "STATURES",
-    "STEP",
+    "STATURE_RANGE",
+    "STATURE_STEP",
+    "TABLE_COLUMNS",
     "Case",
     "Outcome",
     "Row",

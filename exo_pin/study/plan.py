@@ -17,10 +17,10 @@ from exo_pin.gait import SPEEDS
 from exo_pin.study.case import Case
 from exo_pin.study.fingerprint import code_digest
 
-STATURES = (1.50, 1.95)
+STATURE_RANGE = (1.50, 1.95)
 """Least and largest stature [m] of a study: about the 5th woman and the 97th man of a hundred."""
 
-STEP = 0.05
+STATURE_STEP = 0.05
 """Between two statures [m]."""
 
 BOTH_PELVIS_MOTIONS = (Conditions("recorded"), Conditions("device"))
@@ -32,7 +32,9 @@ _MAPPED = {".txt", ".tsv"}
 """Tables that need a mapping of their columns, which a study of many files does not have."""
 
 
-def statures(low: float = STATURES[0], high: float = STATURES[1], step: float = STEP) -> tuple[float, ...]:
+def statures(
+    low: float = STATURE_RANGE[0], high: float = STATURE_RANGE[1], step: float = STATURE_STEP
+) -> tuple[float, ...]:
     """Statures from low to high [m].
 
     Args:

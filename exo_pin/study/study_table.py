@@ -14,6 +14,7 @@ from typing import Any, Literal, get_type_hints
 from exo_pin.anatomy.names import PassiveJoints, PelvisMotion, Sex
 from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
+from exo_pin.gait.phases import PHASES
 
 Motion = Literal["best", "copy"]
 """The least-squares best towards the recorded soles, or the plain copy of the joints."""
@@ -100,8 +101,22 @@ class Row:
     version: str
     inputs: str
 
+    @property
+    def sole_rms_by_phase(self) -> dict[str, float]:
+        """The sole's error in each phase of the foot's cycle [mm]; NaN without events."""
+        values = (
+            self.loading_response_rms_mm,
+            self.mid_stance_rms_mm,
+            self.terminal_stance_rms_mm,
+            self.pre_swing_rms_mm,
+            self.initial_swing_rms_mm,
+            self.mid_swing_rms_mm,
+            self.terminal_swing_rms_mm,
+        )
+        return dict(zip(PHASES, values, strict=True))
 
-COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
+
+TABLE_COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
 """Names of the columns, in order."""
 
 _READERS: Mapping[type, Callable[[str], Any]] = {
@@ -109,7 +124,7 @@ _READERS: Mapping[type, Callable[[str], Any]] = {
     float: lambda cell: float(cell) if cell else math.nan,
 }
 _TYPES = get_type_hints(Row)
-_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in COLUMNS)
+_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in TABLE_COLUMNS)
 
 
 def phase_column(phase: str) -> str:
@@ -122,8 +137,8 @@ def text(rows: Iterable[Row], *, heading: bool = True) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     if heading:
-        writer.writerow(COLUMNS)
-    writer.writerows([_cell(getattr(row, name)) for name in COLUMNS] for row in rows)
+        writer.writerow(TABLE_COLUMNS)
+    writer.writerows(map(_cell, dataclasses.astuple(row)) for row in rows)
     return file.getvalue()
 
 
@@ -150,7 +165,7 @@ def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
     if unfinished:
         content = content[: content.rfind("\n") + 1]
     lines = csv.reader(io.StringIO(content))
-    if tuple(next(lines, ())) != COLUMNS and not (unfinished and not content):
+    if tuple(next(lines, ())) != TABLE_COLUMNS and not (unfinished and not content):
         raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
     rows = []
     for line in lines:
@@ -158,7 +173,7 @@ def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
             values = [read(cell) for read, cell in zip(_COLUMN_READERS, line, strict=True)]
         except ValueError as error:
             raise FormatError(path, f"not a row of a study: {error}", line=lines.line_num) from None
-        rows.append(Row(**dict(zip(COLUMNS, values, strict=True))))
+        rows.append(Row(**dict(zip(TABLE_COLUMNS, values, strict=True))))
     return rows
 
 

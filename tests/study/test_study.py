@@ -70,7 +70,7 @@ def test_every_device_has_both_rows_for_every_walk_in_the_order_of_the_plan(done
 
 def test_a_table_reads_back_as_it_was_written(done):
     assert study.load(done[1]) == list(done[0].rows)
-    assert tuple(done[1].read_text().splitlines()[0].split(",")) == study.COLUMNS
+    assert tuple(done[1].read_text().splitlines()[0].split(",")) == study.TABLE_COLUMNS
 
 
 def test_what_is_unknown_is_an_empty_cell(tmp_path, done):

@@ -143,8 +143,8 @@ def _plan(args: argparse.Namespace) -> list[Case]:
         "conditions": [Conditions(pelvis, args.passive) for pelvis in _PELVIS[args.pelvis]],
     }
     on_statures = args.statures is not None or args.step is not None
-    low, high = args.statures or study.STATURES
-    of = study.statures(low, high, study.STEP if args.step is None else args.step)
+    low, high = args.statures or study.STATURE_RANGE
+    of = study.statures(low, high, study.STATURE_STEP if args.step is None else args.step)
     cases = []
     if args.recordings:
         on: list[Body | None] = [Body.load(args.body)] if args.body else [None]
@@ -172,11 +172,9 @@ def _write_page(args: argparse.Namespace, done: Study) -> str:
     return page
 
 
-def _to_json(
-    args: argparse.Namespace, done: Study, *, cases: int, page: str, seconds: float
-) -> dict[str, Any]:
+def _to_json(table: str, done: Study, *, cases: int, page: str, seconds: float) -> dict[str, Any]:
     return {
-        "table": args.output if done.rows else None,
+        "table": table if done.rows else None,
         "page": page or None,
         "walks": done.walks,
         "devices": done.devices,

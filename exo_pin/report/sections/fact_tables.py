@@ -26,8 +26,8 @@ def body(robot: Robot) -> Section:
         raise DescriptionError("a report needs a robot that load_robot made for a Body")
     left, right = b.legs
     legs = [
-        [name.replace("_", " "), f"{getattr(left, name):.3f}", f"{getattr(right, name):.3f}", _unit(name)]
-        for name in Leg._fields
+        [name.replace("_", " "), f"{value:.3f}", f"{other:.3f}", _unit(name)]
+        for name, value, other in zip(Leg._fields, left, right, strict=True)
     ]
     whole = [
         ["stature", f"{b.stature:.3f}", "m"],
