@@ -1,6 +1,6 @@
-"""Many walks on many devices: a plan, solved in parallel, kept in a tidy table that can be continued.
+"""Studies of many walks on many devices: a plan, run in parallel, its rows kept in a CSV table.
 
-`run(plan(...), "study.csv", jobs=2)` is the whole of it; `jobs` and the back end are joblib's.
+`run(plan(...), "study.csv", jobs=2)` runs a study, or continues it; `jobs` and the back end are joblib's.
 """
 
 from exo_pin.study.case import Case, Outcome, solve

@@ -18,7 +18,7 @@ from exo_pin.files import read_bytes
 from exo_pin.formats import is_markers, load_gait
 from exo_pin.gait import Gait, doubts, normative_gait
 from exo_pin.study.fingerprint import code_digest, fingerprint, plain
-from exo_pin.study.study_table import MOTIONS, Motion, Row, phase_column
+from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -127,7 +127,9 @@ def _rows(case: Case, gait: Gait, body: Body, conditions: Conditions) -> Iterato
             yield _row(case, loss, motion, conditions, warnings, devices[loss.device])
 
 
-def _row(case: Case, loss: Loss, motion: Motion, conditions: Conditions, warnings: str, inputs: str) -> Row:
+def _row(
+    case: Case, loss: Loss, motion: MotionKind, conditions: Conditions, warnings: str, inputs: str
+) -> Row:
     body = loss.walk.robot.body
     assert body is not None  # compare made it
     gait = loss.walk.gait

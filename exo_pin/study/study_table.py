@@ -16,10 +16,10 @@ from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
 from exo_pin.gait.phases import PHASES
 
-Motion = Literal["best", "copy"]
+MotionKind = Literal["best", "copy"]
 """The least-squares best towards the recorded soles, or the plain copy of the joints."""
 
-MOTIONS: tuple[Motion, ...] = ("best", "copy")
+MOTIONS: tuple[MotionKind, ...] = ("best", "copy")
 """The two rows of every device on every walk."""
 
 
@@ -76,7 +76,7 @@ class Row:
     motors: int
     pelvis: PelvisMotion
     passive: PassiveJoints
-    motion: Motion
+    motion: MotionKind
     sole_rms_mm: float
     sole_max_mm: float
     foot_rms_mm: float

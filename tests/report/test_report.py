@@ -304,10 +304,10 @@ def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):
 def test_the_page_of_the_paper_says_what_is_computed(paper, robot, gait):
     assert [s.title.split(":")[0] for s in paper.sections[1:]] == [f"Fig. {k}" for k in range(1, 7)]
     rows = table(paper, "Fig. 6: recovered against given joint curves")
-    answer = crosscheck.recover_noisy(robot, gait, 1e-3)
+    recovery = crosscheck.recover_noisy(robot, gait, 1e-3)
     shown = rows["feet with 1 mm noise"]
-    assert float(shown[3]) == pytest.approx(np.degrees(answer.rms_by_movement()["knee_flexion"]), abs=5e-3)
-    assert shown[8] == f"{int(answer.track.converged.sum())} of {len(gait)}"
+    assert float(shown[3]) == pytest.approx(np.degrees(recovery.rms_by_movement()["knee_flexion"]), abs=5e-3)
+    assert shown[8] == f"{int(recovery.track.converged.sum())} of {len(gait)}"
     text = unescape(report.html(paper))
     assert "no browser rendered the model in this run" in text
     assert "could not be found" in text
@@ -343,8 +343,8 @@ def test_the_commands_read_torques_and_tables_of_other_laboratories(tmp_path, ga
     header = ",".join(["t", *(f"c{k}" for k in range(12))])
     np.savetxt(lab, rows, delimiter=",", header=header, comments="")
     columns = [f"--map=c{k}={joint}" for k, joint in enumerate(JOINTS)]
-    told = [str(lab), "--map=t=time", *columns, "--units", "deg"]
-    assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *told]) == 0
+    options = [str(lab), "--map=t=time", *columns, "--units", "deg"]
+    assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *options]) == 0
     assert "lab.csv" in (tmp_path / "reproduction.md").read_text()
 
 

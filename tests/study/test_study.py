@@ -300,9 +300,9 @@ def test_the_command_writes_table_page_and_json_and_goes_on(tmp_path, capsys):
 def test_bad_recordings_show_in_the_exit_code_of_the_command(walks, tmp_path, capsys):
     words = ["study", "--devices", "hk4", "--pelvis", "recorded", "-o", str(tmp_path / "s.csv")]
     assert main([*words, "--recordings", str(walks)]) == 1
-    said = capsys.readouterr()
-    assert [line.split(":")[0] for line in said.err.splitlines()] == ["left out"] * 2
-    assert "2 left out" in said.out
+    printed = capsys.readouterr()
+    assert [line.split(":")[0] for line in printed.err.splitlines()] == ["left out"] * 2
+    assert "2 left out" in printed.out
     (walks / "good.csv").unlink()
     (walks / "below" / "also good.npz").unlink()
     assert main([*words[:-1], str(tmp_path / "none.csv"), "--recordings", str(walks)]) == 2

@@ -1,4 +1,4 @@
-"""SVG as text: escaped content, rounded numbers; equal input gives equal bytes."""
+"""SVG elements as text: escaped content, rounded numbers, the same bytes for the same input."""
 
 from __future__ import annotations
 

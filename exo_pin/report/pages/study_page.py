@@ -159,9 +159,9 @@ def _recordings(rows: Sequence[Row]) -> Section:
         blocks.append(
             Figure((heat(f"recordings_{pelvis}", title, devices, shown, width=900),), more, columns=1)
         )
-    doubtful = list(dict.fromkeys((row.gait, row.doubts) for row in rows if row.doubts))
-    if doubtful:
-        blocks.append(Table(("recording", "reasons to doubt how it was read"), doubtful, prose=True))
+    warnings = list(dict.fromkeys((row.gait, row.doubts) for row in rows if row.doubts))
+    if warnings:
+        blocks.append(Table(("recording", "reasons to doubt how it was read"), warnings, prose=True))
     return Section("Recordings", tuple(blocks))
 
 
