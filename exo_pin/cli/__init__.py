@@ -1,8 +1,9 @@
-"""The command line `exo-pin`: the only room that prints and exits."""
+"""The command line `exo-pin`: the table of commands, the entry point, exit codes and error messages."""
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -35,7 +36,7 @@ COMMANDS = {
     "feasible": "whether a device can do a walk with a person",
     "dh": "the Denavit-Hartenberg table for a body",
 }
-"""Each command lives in the module of its name: `configure(parser)` and `run(args) -> exit code`."""
+"""Commands and their help; each is a module of `commands`: `configure(parser)`, `run(args) -> exit code`."""
 
 _EPILOG = """examples:
   exo-pin replay                       the normal walk, live in the browser
@@ -57,34 +58,51 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if argv is None else argv)
     try:
-        if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
-            if not Path(words[0]).suffix and not Path(words[0]).exists():
-                raise UnknownNameError("command or file", words[0], COMMANDS)
-            words.insert(0, "replay")
-        args = _parser(words).parse_args(words, _before(words))
-        if args.command is None:
-            _parser(words).print_help()
-            return 0
-        code: int = _module(args.command).run(args)
+        try:
+            return _run(words)
+        finally:
+            if sys.stdout is not None:
+                sys.stdout.flush()  # a closed pipe raises here, not while the interpreter exits
     except ExoPinError as error:
         print(f"exo-pin: {' '.join(str(error).split())}", file=sys.stderr)
         return 1 if isinstance(error, (LimitError, ConvergenceError)) else 2
-    except BrokenPipeError:  # `exo-pin dh | head`: the reader had enough
-        sys.stderr.close()
+    except BrokenPipeError:  # `exo-pin dh | head -1`: the reader has closed the pipe
+        _discard_output()
         return 0
     except KeyboardInterrupt:
         return 130
+
+
+def _run(words: list[str]) -> int:
+    """Parse the words and run the command; its exit code."""
+    if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
+        if not Path(words[0]).suffix and not Path(words[0]).exists():
+            raise UnknownNameError("command or file", words[0], COMMANDS)
+        words.insert(0, "replay")
+    parser = _parser(words)
+    args = parser.parse_args(words, _early(words))
+    if args.command is None:
+        parser.print_help()
+        return 0
+    code: int = _module(args.command).run(args)
     return code
 
 
-def _before(words: Sequence[str]) -> argparse.Namespace:
-    """What is done before the words are understood, which takes NumPy: `replay` shows its last picture."""
+def _early(words: list[str]) -> argparse.Namespace:
+    """What runs before the words are parsed, since that imports NumPy: `replay` shows its last picture."""
     server = import_module("exo_pin.cli.last_picture").serve(words) if words[:1] == ["replay"] else None
     return argparse.Namespace(words=words, server=server)
 
 
+def _discard_output() -> None:
+    """Send what stdout still holds to nowhere, so that the interpreter can flush it when it exits."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+
+
 def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
-    """The parser; only the command in use is imported, so that help stays quick."""
+    """The parser. It imports only the command in use, so that help stays quick."""
     parser = argparse.ArgumentParser(
         prog="exo-pin",
         description="A person's walk becomes an exoskeleton's walk.",

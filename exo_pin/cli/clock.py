@@ -1,4 +1,4 @@
-"""When: the moment of a run, by the system's clock."""
+"""The time of a run, by the system's clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What commands print: tables for people, JSON for machines, progress on long work."""
+"""Printing: tables for people, JSON for programs, progress of long work."""
 
 from __future__ import annotations
 
@@ -10,19 +10,23 @@ from typing import Any, TypeVar
 
 Item = TypeVar("Item")
 
-BLOCK = 2000
+_SAMPLES_A_STEP = 2000
 """Samples between two steps of a progress bar."""
 
-
-_ANY = 10_000  # characters: wider than any table
+_ANY_WIDTH = 10_000  # characters: wider than any table
 
 _NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers begin
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table; columns of numbers are aligned to the right and never broken, only their headings.
+    """Print a table; columns of numbers are aligned to the right and only their headings are broken.
 
-    Where a narrow window cannot hold them, lines run over its edge: a number cut short would be another one.
+    Where a narrow window cannot hold the numbers, lines exceed its width: a number cut short would be wrong.
+
+    Args:
+        title: Above the table.
+        columns: Headings, with units.
+        rows: Cells, as many as there are columns.
     """
     from rich import box
     from rich.console import Console
@@ -40,18 +44,21 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
         drawn.add_row(*row)
     print(title)
     console = Console(highlight=False)
-    least = console.measure(drawn, options=console.options.update(max_width=_ANY)).minimum
-    Console(highlight=False, width=max(console.width, least)).print(drawn)
+    least = console.measure(drawn, options=console.options.update(max_width=_ANY_WIDTH)).minimum
+    wide = Console(highlight=False, width=max(console.width, least))
+    with wide.capture() as text:  # rich itself would end the program with exit code 1 at a closed pipe
+        wide.print(drawn)
+    print(text.get(), end="")
 
 
 def _widest(heading: str, rows: Sequence[Sequence[str]], k: int, *, words: bool = False) -> int:
-    """Characters that column k needs: of its longest cell, or of its longest word."""
+    """Characters that column k needs for its longest cell, or for its longest word."""
     cells = heading.split("\n") + [row[k] for row in rows]
     return max(map(len, " ".join(cells).split() if words else cells), default=0)
 
 
 def fixed(value: float, digits: int = 1) -> str:
-    """A number with that many decimals, and no minus before a zero."""
+    """A number with `digits` decimals, and no minus before a zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
@@ -62,13 +69,13 @@ def as_json(facts: Any) -> None:
 
 def blocks(n: int, label: str) -> Iterator[slice]:
     """Slices that cover n samples; a progress bar on stderr shows where the work is."""
-    parts = [slice(start, min(start + BLOCK, n)) for start in range(0, n, BLOCK)]
+    parts = [slice(start, min(start + _SAMPLES_A_STEP, n)) for start in range(0, n, _SAMPLES_A_STEP)]
     return progress(parts, label) if len(parts) > 2 else iter(parts)
 
 
 @contextmanager
 def busy(label: str) -> Iterator[None]:
-    """A moving mark on stderr while something takes its time, if that is a terminal."""
+    """A moving mark on stderr during long work, if that is a terminal."""
     if not sys.stderr.isatty():
         yield
         return
@@ -79,7 +86,13 @@ def busy(label: str) -> Iterator[None]:
 
 
 def progress(items: Iterable[Item], label: str, total: int | None = None) -> Iterator[Item]:
-    """The items, with a progress bar on stderr if that is a terminal; `total` where they have no length."""
+    """The items, with a progress bar on stderr if that is a terminal.
+
+    Args:
+        items: To be worked on, one after the other.
+        label: Beside the bar.
+        total: How many items there are, where they have no length.
+    """
     if not sys.stderr.isatty():
         yield from items
         return

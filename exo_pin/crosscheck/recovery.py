@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from exo_pin import ik
-from exo_pin.anatomy import FEET, JOINTS, SIDES
+from exo_pin.anatomy import FEET, JOINTS, MOVEMENTS, SIDES
+from exo_pin.anatomy.names import Movement
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.ik.settings import Settings
@@ -22,8 +23,8 @@ ANGLE_TOLERANCE = 1e-6
 """Largest difference of comparable angles [rad]: 1e-9 m at the foot are this much at a knee of 5 degrees."""
 
 BENT_KNEE = np.radians(5.0)
-"""Angles are comparable where the knee is bent by more than this [rad]: near a straight knee the pose of the
-foot hardly determines the knee's angle."""
+"""Angles are compared where the knee is bent more than this [rad]: towards a straight knee a foot's pose
+hardly determines the knee's angle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,18 +57,26 @@ class Recovery:
 
     @property
     def largest_position_error(self) -> float:
-        """Largest distance of a foot from the given one, over samples within the limits [m]."""
+        """Of any foot, over the samples within limits [m]; 0 without such samples."""
         return float(self.track.position_error[self.within].max(initial=0.0))
 
     @property
     def largest_rotation_error(self) -> float:
-        """Largest angle between a foot and the given one, over samples within the limits [rad]."""
+        """Of any foot, over the samples within limits [rad]; 0 without such samples."""
         return float(self.track.rotation_error[self.within].max(initial=0.0))
 
     @property
     def largest_angle_error(self) -> float:
-        """Largest difference of a recovered from a given angle, over comparable angles [rad]."""
+        """Where angles are `comparable` [rad]; 0 where none are."""
         return float(np.abs(self.angle_error[self.comparable]).max(initial=0.0))
+
+    def rms_by_movement(self) -> dict[Movement, float]:
+        """Root mean square of `angle_error` over both legs and all samples [rad]."""
+        return {m: float(np.sqrt((self.angle_error[:, _both(m)] ** 2).mean())) for m in MOVEMENTS}
+
+    def largest_by_movement(self) -> dict[Movement, float]:
+        """Largest `angle_error` over both legs and all samples [rad]."""
+        return {m: float(np.abs(self.angle_error[:, _both(m)]).max()) for m in MOVEMENTS}
 
 
 def recover(robot: Robot, gait: Gait, *, settings: Settings | None = None) -> Recovery:
@@ -78,10 +87,34 @@ def recover(robot: Robot, gait: Gait, *, settings: Settings | None = None) -> Re
         gait: The walk.
         settings: Settings of `ik.track`; its default if left out.
     """
-    q = robot.from_gait(gait)
-    base = robot.base_of(gait)
-    feet = poses(robot, q, FEET, base=base)
+    feet = poses(robot, robot.from_gait(gait), FEET, base=robot.base_of(gait))
+    return _recovered(robot, gait, feet, settings)
+
+
+def recover_noisy(robot: Robot, gait: Gait, sd: float, *, damping: float = 0.0, seed: int = 0) -> Recovery:
+    """Angles from feet whose positions carry white noise; their rotations are exact.
+
+    Args:
+        robot: The robot.
+        gait: The walk.
+        sd: Standard deviation of each coordinate of a foot [m].
+        damping: Of `ik.Dls` [m/rad], which holds each sample to the one before; 0 solves every sample by
+            itself.
+        seed: Of the noise: the same in every run.
+    """
+    feet = poses(robot, robot.from_gait(gait), FEET, base=robot.base_of(gait))
+    feet[..., :3, 3] += np.random.default_rng(seed).normal(scale=sd, size=(*feet.shape[:2], 3))
+    return _recovered(robot, gait, feet, ik.Dls(damping=damping) if damping else ik.Auto())
+
+
+def _recovered(robot: Robot, gait: Gait, feet: Array, settings: Settings | None) -> Recovery:
+    """Inverse kinematics of feet `(n, 2, 4, 4)` that belong to the samples of a gait."""
     chosen: dict[str, Any] = {} if settings is None else {"settings": settings}
-    track = ik.track(robot, {foot: feet[:, k] for k, foot in enumerate(FEET)}, base=base, **chosen)
-    within = np.all(~robot.outside(q), axis=1)
+    targets = {foot: feet[:, k] for k, foot in enumerate(FEET)}
+    track = ik.track(robot, targets, base=robot.base_of(gait), **chosen)
+    within = np.all(~robot.outside(robot.from_gait(gait)), axis=1)
     return Recovery(gait, robot.to_gait(track.q, gait), track, within)
+
+
+def _both(movement: Movement) -> list[int]:
+    return [k for k, joint in enumerate(JOINTS) if joint.endswith(movement)]

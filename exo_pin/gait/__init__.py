@@ -3,10 +3,12 @@
 from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
+from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
 from exo_pin.gait.plausibility import implausibilities
 from exo_pin.gait.reference_values import Norm, against_normal, normal
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
+from exo_pin.gait.stance_times import stance_times
 from exo_pin.gait.strides import Stride, side_with_more_strides, strides
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.zeni_method import zeni
@@ -17,6 +19,7 @@ __all__ = [
     "Cycles",
     "Event",
     "Gait",
+    "LegCycle",
     "Norm",
     "Number",
     "Stride",
@@ -24,11 +27,13 @@ __all__ = [
     "against_normal",
     "cycles",
     "implausibilities",
+    "leg_cycles",
     "normal",
     "normative_gait",
     "normative_sd",
     "side_with_more_strides",
     "spatiotemporal",
+    "stance_times",
     "strides",
     "zeni",
 ]

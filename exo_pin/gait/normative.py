@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, Body
-from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.anatomy.names import EventKind, Side, Speed
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait.event import Event
@@ -16,7 +16,7 @@ from exo_pin.gait.schwartz2008 import MEAN_ANGLES, MEAN_ANKLE_INVERSION, MEAN_HA
 from exo_pin.gait.schwartz2008_sd import SD_ANGLES, SD_ANKLE_INVERSION
 from exo_pin.physics import GRAVITY
 
-SPEEDS = tuple(MEAN_ANGLES)
+SPEEDS: tuple[Speed, ...] = ("very_slow", "slow", "free", "fast", "very_fast")
 """`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
 
 _SOURCE = "Schwartz 2008"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import pairwise
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, stance_times
 from exo_pin.gait.event import SAME_TIME
 from exo_pin.gait.time_series import runs
 
@@ -29,7 +28,7 @@ def stance_from_events(gait: Gait) -> Intervals | None:
             gait.stance(side)  # checks that there are events, and that strike and toe-off take turns
     except GaitError:
         return None
-    return {side: _between(gait, side) for side in SIDES}
+    return {side: stance_times(gait, side) for side in SIDES}
 
 
 def estimated_stance(gait: Gait, heights: Mapping[Side, Array]) -> Intervals:
@@ -65,17 +64,6 @@ def standing(intervals: Intervals, side: Side, time: Array) -> Mask:
     for start, end in intervals[side]:
         inside |= (start <= moment) & (moment < end)
     return inside
-
-
-def _between(gait: Gait, side: Side) -> tuple[tuple[float, float], ...]:
-    mine = [(event.time - float(gait.time[0]), event.kind) for event in gait.events if event.side == side]
-    spans = [(a, b) for (a, kind), (b, _) in pairwise(mine) if kind == "heel_strike"]
-    first, last = mine[0], mine[-1]
-    if first[1] == "toe_off":  # it stood before its first event, in a periodic gait since the last cycle
-        spans.insert(0, (0.0, first[0]))
-    if last[1] == "heel_strike":
-        spans.append((last[0], gait.duration))
-    return tuple((a, b) for a, b in spans if b > a)
 
 
 def _runs(gait: Gait, contact: Mask) -> tuple[tuple[float, float], ...]:

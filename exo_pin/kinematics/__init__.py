@@ -2,22 +2,34 @@
 
 from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.contact import Contacts, contacts, events, with_events
+from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
+from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
+from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
 from exo_pin.kinematics.plate_contacts import plate_events, spatiotemporal, with_plates
+from exo_pin.kinematics.walk_numbers import WalkNumbers, walk_numbers
 
 __all__ = [
     "CenterOfMass",
     "Contacts",
+    "CurveOutlier",
+    "JointRates",
+    "WalkNumbers",
     "accelerations",
     "attitude",
     "center_of_mass",
     "contacts",
+    "curve_outliers",
+    "deviation_from_parallel",
     "events",
     "jacobian",
+    "joint_frames",
+    "joint_rates",
     "plate_events",
     "poses",
     "spatiotemporal",
     "velocities",
+    "walk_numbers",
     "with_events",
     "with_plates",
 ]

@@ -1,18 +1,18 @@
-"""Many walks on many devices: a plan, solved in parallel, kept in a tidy table that can be continued.
+"""Studies of many walks on many devices: a plan, run in parallel, its rows kept in a CSV table.
 
-`run(plan(...), "study.csv", jobs=2)` is the whole of it; `jobs` and the back end are joblib's.
+`run(plan(...), "study.csv", jobs=2)` runs a study, or continues it; `jobs` and the back end are joblib's.
 """
 
 from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.parallel import Study, part, run
-from exo_pin.study.plan import STATURES, STEP, bodies, plan, recordings, statures
-from exo_pin.study.study_table import COLUMNS, Row, load, save
+from exo_pin.study.plan import STATURE_RANGE, STATURE_STEP, bodies, plan, recordings, statures
+from exo_pin.study.study_table import TABLE_COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
 
 __all__ = [
-    "COLUMNS",
-    "STATURES",
-    "STEP",
+    "STATURE_RANGE",
+    "STATURE_STEP",
+    "TABLE_COLUMNS",
     "Case",
     "Outcome",
     "Row",

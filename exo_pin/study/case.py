@@ -1,4 +1,4 @@
-"""A case: one walk on one body, to be put through devices under conditions; what a worker is given."""
+"""A case of a study: one walk on one body, compared on devices under conditions; the input of a worker."""
 
 from __future__ import annotations
 
@@ -6,27 +6,19 @@ import dataclasses
 import functools
 import hashlib
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from exo_pin import version
 from exo_pin.anatomy import Body
 from exo_pin.compare import PHASES, Conditions, Loss, compare
-from exo_pin.description import sources
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import is_markers, load_gait
 from exo_pin.gait import Gait, implausibilities, normative_gait
-from exo_pin.study.study_table import MOTIONS, Row, phase_column
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-_DIGITS = 16
-"""Hexadecimal digits of a fingerprint: a collision among a million rows is a matter of 1 in 10 million."""
+from exo_pin.study.fingerprint import code_digest, fingerprint, plain
+from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -34,12 +26,13 @@ class Case:
     """One walk on one body.
 
     Attributes:
-        gait: A speed of the normative walk, or what a recording is called.
+        gait: A speed of the normative walk, or the name of a recording.
         path: File of the recording; empty for a speed.
-        body: Who walks; None: the body that a marker trial is solved on, else `Body.from_stature()`.
-        parts: The devices to be put through the walk, each with what it is granted.
-        preset: Sign convention of a recording that does not tell it; None: find out.
-        version: Of the exo_pin that made the plan, which a worker must have too.
+        body: The body that walks; None: that of a marker trial, else `Body.from_stature()`.
+        parts: The devices to compare, each with its conditions.
+        preset: Sign convention of a recording that does not state it; None: find out.
+        version: Of the exo_pin that made the plan; a worker must have the same.
+        code: Digest of its code (`fingerprint.code_digest`).
     """
 
     gait: str
@@ -48,20 +41,20 @@ class Case:
     path: str = ""
     preset: str | None = None
     version: str = field(default_factory=lambda: version.__version__)
+    code: str = field(default_factory=code_digest)
 
     @functools.cached_property
     def fingerprints(self) -> tuple[str, ...]:
-        """One for each part: equal if and only if everything that its rows depend on is equal.
+        """Of each part: equal if and only if everything that its rows depend on is equal.
 
         Raises:
             FormatError: The recording cannot be read.
         """
         walk = hashlib.sha256(read_bytes(self.path)).hexdigest() if self.path else ""
-        body = None if self.body is None else _plain(self.body)
-        shared = (self.version, _code(), self.gait, walk, self.preset, body)
+        body = None if self.body is None else plain(self.body)
+        shared = (self.version, self.code, self.gait, walk, self.preset, body)
         return tuple(
-            hashlib.sha256(repr((shared, _plain(granted), _plain(device))).encode()).hexdigest()[:_DIGITS]
-            for granted, device in self.parts
+            fingerprint(shared, plain(conditions), plain(device)) for conditions, device in self.parts
         )
 
     def without(self, done: Container[str]) -> Case:
@@ -69,18 +62,18 @@ class Case:
         pairs = zip(self.parts, self.fingerprints, strict=True)
         left = [(part, mark) for part, mark in pairs if mark not in done]
         rest = dataclasses.replace(self, parts=tuple(part for part, _ in left))
-        # the plan's are carried to the worker, and the recording is not read again for them
+        # the worker gets the plan's fingerprints, so that it does not read the recording for them again
         vars(rest)["fingerprints"] = tuple(mark for _, mark in left)
         return rest
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a case.
+    """The result of a case.
 
     Attributes:
         case: The case.
-        rows: Two for each device, the best motion and the plain copy; none if it failed.
+        rows: Two for each device, the best motion and the plain copy; empty if it failed.
         failure: Why it failed, in one line; empty if it did not.
     """
 
@@ -90,9 +83,9 @@ class Outcome:
 
 
 def solve(case: Case) -> Outcome:
-    """Put the devices through the walk.
+    """Compare the devices on the walk.
 
-    Whatever goes wrong with a recording is told in the outcome, so that one bad file does not stop the rest.
+    The outcome holds whatever goes wrong with a recording, so that one bad file does not stop the others.
     """
     if case.version != version.__version__:
         return Outcome(case, failure=_line(case, f"the worker has exo_pin {version.__version__}"))
@@ -100,18 +93,18 @@ def solve(case: Case) -> Outcome:
         gait, body = _walk(case)
         rows = [
             row
-            for granted in dict.fromkeys(c for c, _ in case.parts)
-            for row in _rows(case, gait, body, granted)
+            for conditions in dict.fromkeys(c for c, _ in case.parts)
+            for row in _rows(case, gait, body, conditions)
         ]
     except ExoPinError as error:
         return Outcome(case, failure=_line(case, str(error)))
-    except Exception as error:  # a reader's bug: it shall cost this file, not the night's work
+    except Exception as error:  # a bug in a reader costs its file, not the whole study
         return Outcome(case, failure=_line(case, f"unexpected {type(error).__name__}: {error}"))
     return Outcome(case, tuple(rows))
 
 
 def _walk(case: Case) -> tuple[Gait, Body]:
-    """The walk and who walks."""
+    """The walk and the body that walks."""
     if not case.path:
         body = case.body or Body.from_stature()
         return normative_gait(case.gait, leg_length=body.leg_length), body
@@ -123,22 +116,24 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     return load_gait(case.path, preset=case.preset), case.body or Body.from_stature()
 
 
-def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[Row]:
+def _rows(case: Case, gait: Gait, body: Body, conditions: Conditions) -> Iterator[Row]:
     """The rows of all devices under one set of conditions."""
     parts = zip(case.parts, case.fingerprints, strict=True)
-    devices = {device: mark for (conditions, device), mark in parts if conditions == granted}
-    compared = compare(gait, devices, body, conditions=granted)
-    doubtful = "; ".join(implausibilities(gait))
+    devices = {device: mark for (its, device), mark in parts if its == conditions}
+    compared = compare(gait, devices, body, conditions=conditions)
+    warnings = "; ".join(implausibilities(gait))
     for pair in zip(compared.best, compared.projected, strict=True):
         for motion, loss in zip(MOTIONS, pair, strict=True):
-            yield _row(case, loss, motion, granted, doubtful, devices[loss.device])
+            yield _row(case, loss, motion, conditions, warnings, devices[loss.device])
 
 
-def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str, inputs: str) -> Row:
+def _row(
+    case: Case, loss: Loss, motion: MotionKind, conditions: Conditions, warnings: str, inputs: str
+) -> Row:
     body = loss.walk.robot.body
     assert body is not None  # compare made it
-    gait, facts = loss.walk.gait, loss.facts()
-    phases = {phase_column(phase): _nan(facts["sole_error_by_phase_mm"][phase]) for phase in PHASES}
+    gait = loss.walk.gait
+    phases = {phase_column(phase): 1e3 * loss.by_phase[phase] for phase in PHASES}
     return Row(
         gait=case.gait,
         source=gait.source,
@@ -149,50 +144,30 @@ def _row(case: Case, loss: Loss, motion: str, granted: Conditions, doubtful: str
         sex=body.sex,
         device=loss.device.name,
         motors=loss.device.motors,
-        pelvis=granted.pelvis,
-        passive=granted.passive,
+        pelvis=conditions.pelvis,
+        passive=conditions.passive,
         motion=motion,
-        sole_rms_mm=facts["sole_error_mm"]["rms"],
-        sole_max_mm=facts["sole_error_mm"]["max"],
-        foot_rms_mm=facts["position_error_mm"]["rms"],
-        foot_max_mm=facts["position_error_mm"]["max"],
-        foot_rms_deg=facts["rotation_error_deg"]["rms"],
-        foot_max_deg=facts["rotation_error_deg"]["max"],
+        sole_rms_mm=1e3 * loss.sole_spread.rms,
+        sole_max_mm=1e3 * loss.sole_spread.max,
+        foot_rms_mm=1e3 * loss.position_spread.rms,
+        foot_max_mm=1e3 * loss.position_spread.max,
+        foot_rms_deg=math.degrees(loss.rotation_spread.rms),
+        foot_max_deg=math.degrees(loss.rotation_spread.max),
         **phases,
-        step_width_mm=_nan(facts["step_width_mm"]),
-        step_width_lost_mm=_nan(facts["step_width_lost_mm"]),
-        clearance_mm=_nan(facts["clearance_mm"]),
-        clearance_lost_mm=_nan(facts["clearance_lost_mm"]),
-        hip_change_deg=facts["angle_change_deg"]["hip_flexion"],
-        knee_change_deg=facts["angle_change_deg"]["knee_flexion"],
-        com_rms_mm=facts["com_error_mm"],
-        doubts=doubtful,
+        step_width_mm=1e3 * loss.step_width,
+        step_width_lost_mm=1e3 * loss.step_width_lost,
+        clearance_mm=1e3 * loss.clearance,
+        clearance_lost_mm=1e3 * loss.clearance_lost,
+        hip_change_deg=math.degrees(loss.angle_change["hip_flexion"]),
+        knee_change_deg=math.degrees(loss.angle_change["knee_flexion"]),
+        com_rms_mm=1e3 * loss.com_error,
+        doubts=warnings,
         version=case.version,
         inputs=inputs,
     )
 
 
-@functools.cache
-def _code() -> str:
-    """Digest of what the numbers follow from: this package, without the rooms that only show them."""
-    package = Path(__file__).parents[1]
-    shown = {package / room for room in ("cli", "report", "viewer")}
-    files = sorted(file for file in package.rglob("*.py") if not shown & set(file.parents))
-    files += sorted(sources().glob("*.xacro"))
-    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
-
-
-def _plain(record: DataclassInstance) -> dict[str, Any]:
-    """A record's fields as values whose text is the same in every process."""
-    values = {field.name: getattr(record, field.name) for field in dataclasses.fields(record)}
-    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in values.items()}
-
-
-def _nan(value: float | None) -> float:
-    return math.nan if value is None else value
-
-
 def _line(case: Case, words: str) -> str:
-    """The words in one line that names the walk."""
+    """The words on one line that names the walk."""
     name, line = case.path or case.gait, " ".join(words.split())
     return line if name in line else f"{name}: {line}"

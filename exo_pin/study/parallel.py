@@ -1,4 +1,4 @@
-"""The work of a study: cases in parallel by joblib, kept as they finish, so that it can be continued."""
+"""Run a study: cases in parallel by joblib; finished rows are kept, so that it can be continued."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.study_table import MOTIONS, Row
 
 Progress = Callable[[Iterable[Outcome], int], Iterable[Outcome]]
-"""Wraps the outcomes as they come in; told how many there will be."""
+"""Wraps the outcomes as they arrive; its second argument is their number."""
 
 _AT_ONCE = 32
-"""Cases between two savings, with a back end that cannot give back one by one."""
+"""Cases between two writes, for a back end that cannot return results one by one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What came out.
+    """The result of a study.
 
     Attributes:
         rows: In the order of the plan: case by case, device by device, the best motion and the plain copy.
@@ -37,6 +37,16 @@ class Study:
     computed: int
     kept: int
 
+    @property
+    def walks(self) -> int:
+        """How many walks there are; one on two bodies counts twice."""
+        return len({(row.gait, row.stature_m) for row in self.rows})
+
+    @property
+    def devices(self) -> int:
+        """How many devices there are."""
+        return len({row.device for row in self.rows})
+
 
 def run(
     cases: Sequence[Case],
@@ -46,33 +56,33 @@ def run(
     restart: bool = False,
     progress: Progress = lambda outcomes, _: outcomes,
 ) -> Study:
-    """Do a study, or go on with it.
+    """Run a study, or continue it.
 
     Finished cases are appended to `PATH.part` at once; when all are done the table is written to `path`, in
-    the order of the plan, and the part is removed. Rows that either file holds are not computed again.
+    the order of the plan, and the part is removed. Rows in either file are not computed again.
 
     Args:
         cases: The plan.
-        path: The table (.csv); None: nothing is kept.
+        path: The table (.csv); None: write nothing.
         jobs: Workers, as joblib counts them (-1: one per core). None: one, or what
             `joblib.parallel_config` says, which also names the back end.
-        restart: Leave the rows of an earlier study of this name behind.
+        restart: Discard the rows of an earlier study of this name.
         progress: Wraps the outcomes, e.g. in a progress bar.
 
     Raises:
         DescriptionError: The table holds rows of another plan or version.
-        FormatError: The table is no study's, or cannot be written.
+        FormatError: The file is not the table of a study, or cannot be written.
     """
     cases, failed = _readable(cases)
     wanted = {mark for case in cases for mark in case.fingerprints}
     done = {} if path is None else _kept(Path(path), wanted, restart)
     kept, failures = len(done) * len(MOTIONS), {}
     todo = [rest for case in cases if (rest := case.without(done)).parts]
-    with _draft(path, done) as note:
+    with _appending(path, done) as append:
         for outcome in progress(chain(failed, _solved(todo, jobs)), len(failed) + len(todo)):
             if outcome.failure:
                 failures[outcome.case.gait] = outcome.failure
-            note(outcome.rows)
+            append(outcome.rows)
             for row in outcome.rows:
                 done.setdefault(row.inputs, {})[row.motion] = row
     marks = [mark for case in cases for mark in case.fingerprints if mark in done]
@@ -85,30 +95,30 @@ def run(
 
 
 def part(path: str | Path) -> Path:
-    """Where an unfinished study keeps its rows."""
+    """The file of the rows of an unfinished study."""
     return Path(f"{path}.part")
 
 
 def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
-    """Cases whose file can be read, and what became of the others."""
-    fine, failed = [], []
+    """Cases whose file can be read, and the outcomes of the others."""
+    readable, failed = [], []
     for case in cases:
         try:
             _ = case.fingerprints
         except FormatError as error:
             failed.append(Outcome(case, failure=str(error)))
         else:
-            fine.append(case)
-    return fine, failed
+            readable.append(case)
+    return readable, failed
 
 
 def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Row]]:
-    """Rows of earlier runs, by fingerprint and motion; only whole ones."""
+    """Rows of earlier runs, by fingerprint and motion; only where both motions are there."""
     rows = [
         row
         for file in (path, part(path))
         if file.exists()
-        for row in study_table.load(file, torn=file != path)
+        for row in study_table.load(file, unfinished=file != path)
     ]
     if restart:
         return {}
@@ -117,18 +127,18 @@ def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Ro
         if row.inputs not in wanted:
             raise DescriptionError(
                 f"{path} holds another study, or one of another exo_pin ({row.version}: {row.device}, "
-                f"{row.gait}, {row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to go on "
-                "with it repeat its options, else choose another file, or leave its rows behind (--restart)"
+                f"{row.gait}, {row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to continue "
+                "it repeat its options, else choose another file, or discard its rows (--restart)"
             )
         found.setdefault(row.inputs, {})[row.motion] = row
     return {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
 
 
 @contextlib.contextmanager
-def _draft(
+def _appending(
     path: str | Path | None, done: dict[str, dict[str, Row]]
 ) -> Iterator[Callable[[Sequence[Row]], None]]:
-    """A function that appends rows to the part, which begins with what is done.
+    """A function that appends rows to the part, which begins with the rows that are done.
 
     Raises:
         FormatError: It cannot be written.
@@ -139,24 +149,24 @@ def _draft(
     file = part(path)
     write_text(file, study_table.text(row for rows in done.values() for row in rows.values()))
 
-    def note(rows: Sequence[Row]) -> None:
+    def append(rows: Sequence[Row]) -> None:
         try:
             with file.open("a", encoding="utf-8") as lines:
                 lines.write(study_table.text(rows, heading=False))
         except OSError as error:
             raise FormatError(file, f"cannot be written: {error.strerror}") from error
 
-    yield note
+    yield append
 
 
 def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
-    """The outcomes as they are ready, in any order."""
+    """The outcomes as they become ready, in any order."""
     from joblib import Parallel, delayed, effective_n_jobs
 
     tasks = [delayed(solve)(case) for case in _in_turns(cases, effective_n_jobs(jobs))]
     try:
         parallel = Parallel(n_jobs=jobs, return_as="generator_unordered")
-    except ValueError:  # a back end that gives back only all at once
+    except ValueError:  # a back end that returns all results at once
         parallel = Parallel(n_jobs=jobs)
         for k in range(0, len(tasks), _AT_ONCE):
             yield from parallel(tasks[k : k + _AT_ONCE])
@@ -166,10 +176,10 @@ def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
 
 
 def _in_turns(cases: Sequence[Case], workers: int) -> Iterator[Case]:
-    """The cases with as many bodies in turns as there are workers.
+    """The cases of as many bodies in turn as there are workers.
 
-    A device on a body is described by xacro (0.2 s), and the description kept for all workers: so each begins
-    with a body of its own and finds those of the others described.
+    xacro takes 0.2 s to describe a device on a body, and the description is kept for all workers. So each
+    worker begins with a body of its own and finds the descriptions of the others.
     """
     groups: list[list[Case]] = []
     for case in cases:

@@ -8,50 +8,58 @@ from pathlib import Path
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.human import usual_mass
-from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.names import Sex, Speed
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.formats import FORMATS, MARKER_FORMATS
 from exo_pin.gait import SPEEDS
 from exo_pin.study.case import Case
+from exo_pin.study.fingerprint import code_digest
 
-STATURES = (1.50, 1.95)
+STATURE_RANGE = (1.50, 1.95)
 """Least and largest stature [m] of a study: about the 5th woman and the 97th man of a hundred."""
 
-STEP = 0.05
+STATURE_STEP = 0.05
 """Between two statures [m]."""
 
-GRANTED = (Conditions("recorded"), Conditions("device"))
-"""Both readings of the pelvis."""
+BOTH_PELVIS_MOTIONS = (Conditions("recorded"), Conditions("device"))
+"""The pelvis moves as recorded, or as the device allows."""
 
-_MOST = 1000
+_MOST_STATURES = 1000
 
 _MAPPED = {".txt", ".tsv"}
-"""Tables that only a mapping of their columns can read, which a study of many files has not."""
+"""Tables that need a mapping of their columns, which a study of many files does not have."""
 
 
-def statures(low: float = STATURES[0], high: float = STATURES[1], step: float = STEP) -> tuple[float, ...]:
-    """Statures from low to high [m], the end included where the steps meet it.
+def statures(
+    low: float = STATURE_RANGE[0], high: float = STATURE_RANGE[1], step: float = STATURE_STEP
+) -> tuple[float, ...]:
+    """Statures from low to high [m].
+
+    Args:
+        low: The first [m].
+        high: The last [m], included where the steps meet it.
+        step: Between two of them [m].
 
     Raises:
         DescriptionError: They are not in order, or more than 1000.
     """
-    if not (0 < low <= high and step > 0 and (high - low) / step < _MOST):
+    if not (0 < low <= high and step > 0 and (high - low) / step < _MOST_STATURES):
         raise DescriptionError(
             f"statures from {low:g} to {high:g} m in steps of {step:g} m: low <= high, a step above 0 and at "
-            f"most {_MOST} of them are accepted"
+            f"most {_MOST_STATURES} of them are accepted"
         )
     count = int((high - low) / step + 1e-6) + 1
     return tuple(round(low + k * step, 6) for k in range(count))
 
 
 def plan(
-    speeds: Iterable[str] = SPEEDS,
+    speeds: Iterable[Speed] = SPEEDS,
     of: Iterable[float] | None = None,
     devices: Iterable[str | Device] = tuple(known.DEVICES),
     *,
-    conditions: Sequence[Conditions] = GRANTED,
+    conditions: Sequence[Conditions] = BOTH_PELVIS_MOTIONS,
     mass: float | None = None,
     sex: Sex = "male",
 ) -> list[Case]:
@@ -61,7 +69,7 @@ def plan(
         speeds: Of the normative walk.
         of: Statures [m]; `statures()` if left out.
         devices: Names, device files or records.
-        conditions: What the devices are granted.
+        conditions: Under which the devices are compared.
         mass: Of every person [kg]; by `exo_pin.anatomy.human.usual_mass` if left out.
         sex: Of every person.
 
@@ -73,8 +81,9 @@ def plan(
     for speed in speeds:
         if speed not in SPEEDS:
             raise UnknownNameError("speed", speed, SPEEDS)
+    code = code_digest()
     return [
-        Case(gait=speed, body=body, parts=parts)
+        Case(gait=speed, body=body, parts=parts, code=code)
         for body in bodies(statures() if of is None else of, mass=mass, sex=sex)
         for speed in speeds
     ]
@@ -99,23 +108,23 @@ def recordings(
     on: Sequence[Body | None] = (None,),
     devices: Iterable[str | Device] = tuple(known.DEVICES),
     *,
-    conditions: Sequence[Conditions] = GRANTED,
+    conditions: Sequence[Conditions] = BOTH_PELVIS_MOTIONS,
     preset: str | None = None,
 ) -> list[Case]:
     """Every file of a folder and the folders in it whose ending is that of a walk or a marker trial.
 
-    Hidden files are passed by, and tables that need a mapping (.txt, .tsv). Whether a file can be read is
-    found when it is its turn.
+    Hidden files are left out, and so are tables that need a mapping (.txt, .tsv). Whether a file can be read
+    is found out when the study reaches it.
 
     Args:
         folder: Where the recordings are.
-        on: Bodies that each is put on; None: the one that a marker trial is solved on, else the default.
+        on: Bodies that walk each recording; None: that of a marker trial, else the default.
         devices: Names, device files or records.
-        conditions: What the devices are granted.
-        preset: Sign convention of files that do not tell it.
+        conditions: Under which the devices are compared.
+        preset: Sign convention of files that do not state it.
 
     Raises:
-        FormatError: It is no folder, or holds no such file.
+        FormatError: The folder does not exist, or holds no such file.
     """
     folder, parts = Path(folder), _parts(conditions, devices)
     if not folder.is_dir():
@@ -128,8 +137,9 @@ def recordings(
     )
     if not names:
         raise FormatError(folder, f"holds no recording; one ends in {', '.join(endings)}")
+    code = code_digest()
     return [
-        Case(gait=name, path=str(folder / name), body=body, parts=parts, preset=preset)
+        Case(gait=name, path=str(folder / name), body=body, parts=parts, preset=preset, code=code)
         for name in names
         for body in on
     ]
@@ -141,14 +151,14 @@ def _parts(
     """Every device under every condition.
 
     Raises:
-        DescriptionError: There is none, or two have the same name.
+        DescriptionError: The list is empty, or two devices have the same name.
     """
     found = tuple(map(known.find, devices))
     names = [device.name for device in found]
     if len(set(names)) < len(names) or not names:
         given = ", ".join(names) or "none"
         raise DescriptionError(f"devices of a study, each with a name of its own, are needed; given: {given}")
-    return tuple((granted, device) for granted in conditions for device in found)
+    return tuple((each, device) for each in conditions for device in found)
 
 
 def _hidden(path: Path) -> bool:

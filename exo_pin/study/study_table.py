@@ -1,4 +1,4 @@
-"""The table of a study: one row for each walk, body, device, condition and way of moving; as CSV."""
+"""The table of a study as CSV: one row for each walk, body, device, condition and kind of motion."""
 
 from __future__ import annotations
 
@@ -9,11 +9,18 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, Literal, get_type_hints
 
-from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.names import PassiveJoints, PelvisMotion, Sex
 from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
+from exo_pin.gait.phases import PHASES
+
+MotionKind = Literal["best", "copy"]
+"""The least-squares best towards the recorded soles, or the plain copy of the joints."""
+
+MOTIONS: tuple[MotionKind, ...] = ("best", "copy")
+"""The two rows of every device on every walk."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,12 +29,12 @@ class Row:
 
     Attributes:
         gait: Name of the speed, or path of the recording within its folder.
-        source: Where the walk's numbers come from.
+        source: Of the walk's numbers.
         samples: Of the walk.
         duration_s: Of the walk; a periodic walk's stride time.
         stature_m: Of the body.
         mass_kg: Of the body, without the device.
-        sex: Whose segment masses.
+        sex: Whose average segment masses the body has.
         device: Name of the device.
         motors: Number of its motors.
         pelvis: `"recorded"`: it moves as the walker's; `"device"`: as the device holds it.
@@ -50,10 +57,10 @@ class Row:
         step_width_lost_mm: Recorded minus the device's.
         clearance_mm: Least height of the swinging sole over the standing one in mid swing.
         clearance_lost_mm: Recorded minus the device's.
-        hip_change_deg: Largest difference of hip flexion from the angle asked for.
+        hip_change_deg: Largest difference of hip flexion from the required angle.
         knee_change_deg: The same of knee flexion.
         com_rms_mm: Distance of the centre of mass from the recorded walk's, root mean square.
-        doubts: Reasons to doubt how the recording was read; empty for a usual walk.
+        doubts: Warnings about how the recording was read; empty for a usual walk.
         version: Of exo_pin.
         inputs: Fingerprint of exo_pin's code, walk, body, device and conditions: equal inputs, equal rows.
     """
@@ -67,9 +74,9 @@ class Row:
     sex: Sex
     device: str
     motors: int
-    pelvis: str
-    passive: str
-    motion: str
+    pelvis: PelvisMotion
+    passive: PassiveJoints
+    motion: MotionKind
     sole_rms_mm: float
     sole_max_mm: float
     foot_rms_mm: float
@@ -94,18 +101,30 @@ class Row:
     version: str
     inputs: str
 
+    @property
+    def sole_rms_by_phase(self) -> dict[str, float]:
+        """The sole's error in each phase of the foot's cycle [mm]; NaN without events."""
+        values = (
+            self.loading_response_rms_mm,
+            self.mid_stance_rms_mm,
+            self.terminal_stance_rms_mm,
+            self.pre_swing_rms_mm,
+            self.initial_swing_rms_mm,
+            self.mid_swing_rms_mm,
+            self.terminal_swing_rms_mm,
+        )
+        return dict(zip(PHASES, values, strict=True))
 
-COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
+
+TABLE_COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
 """Names of the columns, in order."""
 
-MOTIONS = ("best", "copy")
-"""The two rows of every device on every walk."""
-
-_NUMBERS: Mapping[Any, Callable[[str], Any]] = {
+_READERS: Mapping[type, Callable[[str], Any]] = {
     int: int,
     float: lambda cell: float(cell) if cell else math.nan,
 }
-_READ = tuple(_NUMBERS.get(kind, str) for kind in get_type_hints(Row).values())
+_TYPES = get_type_hints(Row)
+_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in TABLE_COLUMNS)
 
 
 def phase_column(phase: str) -> str:
@@ -118,8 +137,8 @@ def text(rows: Iterable[Row], *, heading: bool = True) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     if heading:
-        writer.writerow(COLUMNS)
-    writer.writerows([_cell(getattr(row, name)) for name in COLUMNS] for row in rows)
+        writer.writerow(TABLE_COLUMNS)
+    writer.writerows(map(_cell, dataclasses.astuple(row)) for row in rows)
     return file.getvalue()
 
 
@@ -132,33 +151,33 @@ def save(rows: Iterable[Row], path: str | Path) -> None:
     write_text(path, text(rows))
 
 
-def load(path: str | Path, *, torn: bool = False) -> list[Row]:
+def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
     """Read rows that `save` has written.
 
     Args:
         path: The file.
-        torn: Whether the last line may be unfinished, as a killed study leaves it; it is then left out.
+        unfinished: The last line may be cut short, as a killed study leaves it; it is then left out.
 
     Raises:
         FormatError: The file cannot be read, or is no table of a study.
     """
     content = read_text(path)
-    if torn:
+    if unfinished:
         content = content[: content.rfind("\n") + 1]
     lines = csv.reader(io.StringIO(content))
-    if tuple(next(lines, ())) != COLUMNS and not (torn and not content):
+    if tuple(next(lines, ())) != TABLE_COLUMNS and not (unfinished and not content):
         raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
     rows = []
     for line in lines:
         try:
-            values = [read(cell) for read, cell in zip(_READ, line, strict=True)]
+            values = [read(cell) for read, cell in zip(_COLUMN_READERS, line, strict=True)]
         except ValueError as error:
             raise FormatError(path, f"not a row of a study: {error}", line=lines.line_num) from None
-        rows.append(Row(**dict(zip(COLUMNS, values, strict=True))))
+        rows.append(Row(**dict(zip(TABLE_COLUMNS, values, strict=True))))
     return rows
 
 
 def _cell(value: str | int | float) -> str:
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
-    return " ".join(str(value).split())  # one row is one line, so that a torn one is seen
+    return " ".join(str(value).split())  # one row is one line, so that an unfinished row is recognised

@@ -1,4 +1,4 @@
-"""A study in a few numbers: each device over all walks."""
+"""The summary of a study: mean and largest error of each device over all walks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def summary(rows: Sequence[Row]) -> tuple[tuple[str, ...], list[list[str]]]:
     """Columns and lines: sole error of the best motion by device, mean and largest over the walks [mm].
 
     Args:
-        rows: Of a study.
+        rows: Of a study, at least one.
     """
     best = [row for row in rows if row.motion == "best"]
     pelvises = list(dict.fromkeys(row.pelvis for row in best))

@@ -17,8 +17,8 @@ PHONE = 390  # [px]
 
 @pytest.fixture(scope="module")
 def address(robot, gait, scene, tmp_path_factory):
-    about = report.About(title="<script>document.title = 'broken'</script>")
-    document = report.walk(robot, gait, about=about, player=viewer.html(scene))
+    info = report.ReportInfo(title="<script>document.title = 'broken'</script>")
+    document = report.walk(robot, gait, info=info, player=viewer.html(scene))
     path = tmp_path_factory.mktemp("report") / "report.html"
     path.write_text(report.html(document), "utf-8")
     return path.as_uri()

@@ -210,6 +210,16 @@ def test_the_reader_of_a_pipe_may_leave_early():
     assert ended.stderr == ""
 
 
+@pytest.mark.parametrize("words", [["devices"], ["devices", "--json"], ["--help"]], ids=" ".join)
+def test_a_closed_pipe_ends_a_command_with_code_0_and_without_a_traceback(words):
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-m", "exo_pin", *words]
+    ended = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, cwd=ROOT)
+    os.close(writer)
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
 def test_a_missing_argument_explains_itself(capsys):
     with pytest.raises(SystemExit) as stop:
         main(["fk", "free"])

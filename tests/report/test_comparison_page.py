@@ -15,7 +15,7 @@ from exo_pin.compare import Conditions, compare, compare_joints, comparison_tabl
 from exo_pin.devices import DEVICES, Device, both
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.report.document import blocks
-from exo_pin.report.draw.cycle_place import place
+from exo_pin.report.draw.cycle_axis import cycle_axis
 from exo_pin.report.draw.device_drawings import joints, ranking, sticks
 
 GAIT = normative_gait().resampled(20)
@@ -126,13 +126,13 @@ def test_series_are_drawn_over_the_foot_s_own_cycle_as_the_mean_of_its_cycles():
     walk = GAIT.repeated(3)
     recording = Gait(walk.time, walk.q, base=walk.base, events=walk.events)
     for side, late in (("left", 0), ("right", GAIT.events[2].time / GAIT.duration)):
-        one, mean = place(GAIT, side), place(recording, side)
+        one, mean = cycle_axis(GAIT, side), cycle_axis(recording, side)
         assert mean.label == f"% of the {side} foot's cycle, mean of 2"
-        knee = one.of(GAIT.q[:, JOINTS.index("left_knee_flexion")])
-        assert mean.of(recording.q[:, JOINTS.index("left_knee_flexion")]) == pytest.approx(knee, abs=1e-9)
+        knee = one.series(GAIT.q[:, JOINTS.index("left_knee_flexion")])
+        assert mean.series(recording.q[:, JOINTS.index("left_knee_flexion")]) == pytest.approx(knee, abs=1e-9)
         again = np.interp(late * GAIT.duration, GAIT.time, GAIT.q[:, JOINTS.index("left_knee_flexion")])
         assert knee[[0, -1]] == pytest.approx(again, abs=1e-9)
-    short = place(Gait(GAIT.time[:5], GAIT.q[:5]), "left")
+    short = cycle_axis(Gait(GAIT.time[:5], GAIT.q[:5]), "left")
     assert (short.label, len(short.x)) == ("time [s]", 5)
 
 

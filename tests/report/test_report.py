@@ -11,25 +11,25 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from exo_pin import cli, crosscheck, ik, report
-from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin import cli, crosscheck, report
+from exo_pin.anatomy import JOINTS
 from exo_pin.demand import ACCELERATION_LIMIT, range_demands
 from exo_pin.errors import DescriptionError
-from exo_pin.gait import Event, Gait, Torques, normative_gait, normative_sd
+from exo_pin.gait import Gait, Torques, normative_gait, normative_sd
 from exo_pin.gait.heading import turned
-from exo_pin.kinematics import center_of_mass, spatiotemporal
+from exo_pin.kinematics import (
+    center_of_mass,
+    spatiotemporal,
+)
 from exo_pin.report.document import blocks
-from exo_pin.report.draw import chart, chart_axis, leg_cycles, panels, skeleton, svg
-from exo_pin.report.sections import angles, fact_tables, ik_loop, noise
-from exo_pin.report.sections.joint_rates import motion
+from exo_pin.report.draw import skeleton
+from exo_pin.report.sections import angles, fact_tables
 from exo_pin.robot import load_robot, load_urdf
 
 EVIL = '<script>alert("x")</script>&'
 VOID = {"meta", "link", "img", "br", "input"}
 DRAWN = 0.03  # [px] numbers in drawings have two decimals
 PRINTED = 5e-2  # [deg] tables show one decimal
-FOURIER = 1e-9  # [rad] interpolation of a band-limited curve at its own samples
-EVEN = 0.35  # how far a gait's rms error with 3 mm noise may lie from three times that with 1 mm, as a share
 
 
 @pytest.fixture(scope="module")
@@ -53,8 +53,8 @@ def recording(gait):
 
 @pytest.fixture(scope="module")
 def document(robot, gait):
-    about = report.About(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
-    return report.walk(robot, gait, about=about, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")
+    info = report.ReportInfo(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
+    return report.walk(robot, gait, info=info, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +88,10 @@ class Reader(HTMLParser):
         assert self.open.pop() == tag
 
 
+def elements(drawing, name):
+    return list(ElementTree.fromstring(drawing).iter(f"{{http://www.w3.org/2000/svg}}{name}"))
+
+
 def section(document, title):
     return next(s for s in document.sections if s.title == title)
 
@@ -95,10 +99,6 @@ def section(document, title):
 def table(document, title, number=0):
     tables = [b for b in section(document, title).blocks if isinstance(b, blocks.Table)]
     return {row[0]: list(row[1:]) for row in tables[number].rows}
-
-
-def elements(drawing, name):
-    return list(ElementTree.fromstring(drawing).iter(f"{{http://www.w3.org/2000/svg}}{name}"))
 
 
 def test_the_report_has_every_section(document):
@@ -258,15 +258,6 @@ def test_the_filter_is_stated_when_it_is_off_or_refuses(robot, recording):
     assert "the filter refused" in report.html(report.walk(robot, recording, cutoff=500.0))
 
 
-def test_rounded_times_do_not_keep_the_filter_from_its_work(robot, recording):
-    times = recording.time, np.round(recording.time, 3)
-    even, rounded = (motion(robot, replace(recording, time=t, events=()), 6.0) for t in times)
-    assert "on an even grid" in rounded.how
-    assert "on an even grid" not in even.how
-    np.testing.assert_allclose(rounded.dq, even.dq, atol=0.2)
-    assert np.abs(rounded.ddq).max() < 1.3 * np.abs(even.ddq).max()
-
-
 def test_a_device_with_locked_joints_and_slides_has_a_report():
     robot = load_robot(device="lopes8")
     document = report.walk(robot, normative_gait())
@@ -278,102 +269,11 @@ def test_a_robot_without_a_body_is_refused(robot, gait):
         report.walk(load_urdf(robot.urdf), gait)
 
 
-def test_legs_of_a_normal_walk_are_its_curves(gait):
-    left, right = leg_cycles.legs(gait)
-    np.testing.assert_allclose(left.q[:-1], gait.q[:, :6], atol=FOURIER)
-    np.testing.assert_allclose(right.q[:-1], np.roll(gait.q[:, 6:], -50, axis=0), atol=FOURIER)
-    assert left.stance == pytest.approx(59.0)
-
-
-def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(recording):
-    left, _ = leg_cycles.legs(recording)
-    assert left.sd is not None
-    assert left.sd.max() < 1e-3  # the cycles are copies; resampling differs a little
-    keep = recording.time < 0.6 * recording.time[-1] / 2.5
-    step = replace(
-        recording,
-        time=recording.time[keep],
-        q=recording.q[keep],
-        base=recording.base[keep],
-        events=[e for e in recording.events if e.time <= recording.time[keep][-1]],
-    )
-    estimated = leg_cycles.legs(step)
-    assert all("no whole cycle" in leg.note for leg in estimated)
-    T = 2 * (step.events[2].time - step.events[0].time)
-    np.testing.assert_allclose(np.nanmax(estimated[0].percent), 100 * step.time[-1] / T)
-
-
-def test_stance_is_closed_at_the_ends_of_a_recording_and_around_a_cycle(gait):
-    assert panels.stance_intervals(gait, "left") == [(0.0, pytest.approx(0.59 * gait.duration))]
-    (first, second) = panels.stance_intervals(gait, "right")
-    assert first[0] == 0.0
-    assert second[1] == pytest.approx(gait.duration)
-    events = [Event(0.3, "toe_off", "left"), Event(0.7, "heel_strike", "left")]
-    walk = Gait(np.linspace(0, 1, 20), np.zeros((20, 12)), events=events)
-    assert panels.stance_intervals(walk, "left") == [(0.0, 0.3), (0.7, 1.0)]
-    assert panels.stance_intervals(walk, "right") == []
-
-
 def test_the_band_is_the_normal_walk_and_its_spread():
     percent, mean, sd = angles.normal("slow", 3)
     assert percent[[0, -1]].tolist() == [0, 100]
     np.testing.assert_allclose(np.radians(mean[:-1]), normative_gait("slow").q[:, 3])
     np.testing.assert_allclose(np.radians(sd[:-1]), normative_sd("slow")[:, 3])
-
-
-def test_a_curve_is_drawn_where_its_numbers_are():
-    curve = chart.Curve([0, 10], [0, 5], "#123456")
-    drawing = chart.draw(chart.Chart(title="t", curves=(curve,), x_range=(0, 10), y_range=(0, 10)))
-    (path,) = [e for e in elements(drawing, "path") if e.get("stroke") == "#123456"]
-    points = np.array(re.findall(r"[ML]([\d.]+) ([\d.]+)", path.get("d")), dtype=float)
-    area = next(e for e in elements(drawing, "rect"))
-    x, y, width, height = (float(area.get(name)) for name in ("x", "y", "width", "height"))
-    np.testing.assert_allclose(points, [[x, y + height], [x + width, y + height / 2]], atol=0.01)
-
-
-def test_a_limit_off_the_axis_is_named_in_the_legend_all_the_same():
-    curve = chart.Curve([0, 1], [-1, 1], "#123456")
-
-    def legend(*ends):
-        levels = tuple(chart.Level(y, "#654321", "most", told=True) for y in ends)
-        drawing = chart.draw(chart.Chart(title="t", curves=(curve,), levels=levels, y_range=(-2, 2)))
-        return [e.text for e in elements(drawing, "text") if "most" in (e.text or "")]
-
-    assert legend(-1.5, 1.5) == ["most"]
-    assert legend(-1.5, 9.0) == ["most"]
-    assert legend(-9.0, 9.0) == ["most: off the axis"]
-
-
-def test_a_long_recording_is_thinned_for_drawing_only():
-    x = np.linspace(0, 1, 50_001)
-    drawing = chart.draw(chart.Chart(title="long", curves=(chart.Curve(x, x, "#123456"),)))
-    assert len(drawing) < 40_000
-
-
-@pytest.mark.parametrize(("low", "high"), [(0, 1), (-7.3, 61.2), (1e-9, 3e-9), (-2e5, 9e5)])
-def test_ticks_are_round_and_within(low, high):
-    found = np.array(chart_axis.ticks(low, high))
-    assert 3 <= len(found) <= 10
-    assert low - 1e-9 * abs(low) <= found.min() <= found.max() <= high * (1 + 1e-9)
-    step = np.diff(found)
-    np.testing.assert_allclose(step, step[0])
-    mantissa = step[0] / 10 ** np.floor(np.log10(step[0]) + 1e-9)
-    assert np.isclose(mantissa, [1, 2, 5]).any()
-
-
-def test_gaps_of_a_line_stay_gaps_and_numbers_are_short():
-    assert svg.path([[0, 0], [1, 1], [np.nan, 0], [2, 2]]) == "M0 0L1 1M2 2"
-    assert [svg.number(x) for x in (-0.001, 1 / 3, 100.0)] == ["0", "0.33", "100"]
-    assert svg.text(0, 0, EVIL).count("<") == 2
-
-
-def test_the_joint_frames_are_parallel_and_turn_about_their_axes(robot):
-    frames = skeleton.joint_frames(robot)
-    assert [name for name, _, _ in frames] == ["body", *JOINTS]
-    assert skeleton.frames_parallel(robot) < 1e-15
-    axes = {name: axis for name, _, axis in frames[1:]}
-    for movement, mirrored in zip(MOVEMENTS, (1, -1, -1, 1, 1, -1), strict=True):
-        np.testing.assert_allclose(axes[f"left_{movement}"], mirrored * axes[f"right_{movement}"], atol=1e-12)
 
 
 def test_a_walk_along_any_axis_of_the_laboratory_has_the_same_report(robot, gait, document):
@@ -403,30 +303,13 @@ def test_ten_poses_are_those_of_a_cycle_where_there_is_one(robot, recording):
     assert "without a whole cycle" in skeleton.poses_chart(robot, short)[0].title
 
 
-def test_the_loops_error_falls_to_the_tolerance(robot, gait):
-    errors = ik_loop.errors_by_step(robot, gait, 30, tolerance=1e-9)
-    assert errors[-1] <= 1e-9 < errors[-2]
-    assert errors[0] > 0.1
-
-
-def test_own_feet_are_exact_and_noise_grows_with_its_size(robot, gait):
-    own = noise.exact(robot, gait, "own", ik.Dls())
-    assert max(own.largest().values()) < 1e-6
-    one, three = (noise.noisy(robot, gait, sd) for sd in (1e-3, 3e-3))
-    for movement in ("hip_adduction", "hip_rotation"):  # far from singular: errors are linear in the noise
-        ratio = three.rms()[movement] / one.rms()[movement]
-        assert ratio == pytest.approx(3, rel=EVEN)
-    calm = noise.noisy(robot, gait, 3e-3, damping=noise.CALM)
-    assert calm.rms()["knee_flexion"] < three.rms()["knee_flexion"]
-
-
 def test_the_page_of_the_paper_says_what_is_computed(paper, robot, gait):
     assert [s.title.split(":")[0] for s in paper.sections[1:]] == [f"Fig. {k}" for k in range(1, 7)]
     rows = table(paper, "Fig. 6: recovered against given joint curves")
-    answer = noise.noisy(robot, gait, 1e-3)
+    recovery = crosscheck.recover_noisy(robot, gait, 1e-3)
     shown = rows["feet with 1 mm noise"]
-    assert float(shown[3]) == pytest.approx(np.degrees(answer.rms()["knee_flexion"]), abs=5e-3)
-    assert shown[8] == f"{int(answer.track.converged.sum())} of {len(gait)}"
+    assert float(shown[3]) == pytest.approx(np.degrees(recovery.rms_by_movement()["knee_flexion"]), abs=5e-3)
+    assert shown[8] == f"{int(recovery.track.converged.sum())} of {len(gait)}"
     text = unescape(report.html(paper))
     assert "no browser rendered the model in this run" in text
     assert "could not be found" in text
@@ -462,8 +345,8 @@ def test_the_commands_read_torques_and_tables_of_other_laboratories(tmp_path, ga
     header = ",".join(["t", *(f"c{k}" for k in range(12))])
     np.savetxt(lab, rows, delimiter=",", header=header, comments="")
     columns = [f"--map=c{k}={joint}" for k, joint in enumerate(JOINTS)]
-    told = [str(lab), "--map=t=time", *columns, "--units", "deg"]
-    assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *told]) == 0
+    options = [str(lab), "--map=t=time", *columns, "--units", "deg"]
+    assert cli.main(["reproduce", "-o", str(tmp_path), "--no-render", *options]) == 0
     assert "lab.csv" in (tmp_path / "reproduction.md").read_text()
 
 
@@ -477,7 +360,7 @@ def test_without_a_browser_the_model_is_a_line_drawing_and_that_is_said(tmp_path
 
 
 def test_rendered_pictures_are_inside_the_page_and_files_beside_it(robot, gait):
-    document = report.reproduction(robot, gait, rendered=report.Rendered(model=b"one", poses=b"two"))
+    document = report.reproduction(robot, gait, rendered=report.RenderedPictures(model=b"one", poses=b"two"))
     files = {d.file: d.data for d in document.drawings}
     assert (files["fig3_model.png"], files["fig5_rendered.png"]) == (b"one", b"two")
     text = report.html(document)

@@ -1,4 +1,4 @@
-"""Studies: the same numbers however they are computed, interrupted or continued, and bad files told."""
+"""Studies: the same numbers however they are computed, interrupted or continued; bad files are reported."""
 
 import dataclasses
 import json
@@ -70,7 +70,7 @@ def test_every_device_has_both_rows_for_every_walk_in_the_order_of_the_plan(done
 
 def test_a_table_reads_back_as_it_was_written(done):
     assert study.load(done[1]) == list(done[0].rows)
-    assert tuple(done[1].read_text().splitlines()[0].split(",")) == study.COLUMNS
+    assert tuple(done[1].read_text().splitlines()[0].split(",")) == study.TABLE_COLUMNS
 
 
 def test_what_is_unknown_is_an_empty_cell(tmp_path, done):
@@ -85,7 +85,7 @@ def test_what_is_unknown_is_an_empty_cell(tmp_path, done):
 def test_two_workers_write_the_same_bytes_as_one(tmp_path):
     own = [Conditions("device")]  # slides, and joints at their speeds: the solver's whole length
     for jobs in (1, 2):
-        study.run(plan(devices=("exo12", "planar5"), conditions=own), tmp_path / f"{jobs}.csv", jobs=jobs)
+        study.run(plan(devices=("planar5",), conditions=own), tmp_path / f"{jobs}.csv", jobs=jobs)
     assert (tmp_path / "2.csv").read_bytes() == (tmp_path / "1.csv").read_bytes()
 
 
@@ -169,12 +169,11 @@ def test_another_version_s_rows_are_not_mixed_in(tmp_path, done, monkeypatch):
     assert fresh.kept == 0
 
 
-def test_rows_of_other_code_are_not_mixed_in(tmp_path, done, monkeypatch):
+def test_rows_of_other_code_are_not_mixed_in(tmp_path, done):
     path = tmp_path / "s.csv"
     path.write_bytes(done[1].read_bytes())
-    monkeypatch.setattr("exo_pin.study.case._code", lambda: "another solver")
     with pytest.raises(DescriptionError, match="another exo_pin"):
-        study.run(plan(), path)
+        study.run([dataclasses.replace(case, code="another solver") for case in plan()], path)
 
 
 def test_a_worker_of_another_version_computes_nothing(monkeypatch):
@@ -194,14 +193,14 @@ def test_a_file_that_is_no_study_is_not_overwritten(tmp_path):
     assert path.read_text() == "precious,data\n1,2\n"
 
 
-def test_a_damaged_row_is_told_with_its_line(tmp_path, done):
+def test_a_damaged_row_is_reported_with_its_line(tmp_path, done):
     path = tmp_path / "s.csv"
     path.write_text(done[1].read_text().replace(",recorded,", ",", 1))
     with pytest.raises(FormatError, match=r"s\.csv:2"):
         study.load(path)
 
 
-def test_every_recording_of_a_folder_is_studied_and_bad_ones_are_told(walks):
+def test_every_recording_of_a_folder_is_studied_and_bad_ones_are_reported(walks):
     result = study.run(study.recordings(walks, devices=("hk4",), conditions=RECORDED))
     assert [row.gait for row in result.rows] == ["below/also good.npz"] * 2 + ["good.csv"] * 2
     assert set(result.failures) == {"empty.csv", "letters.mot"}
@@ -298,12 +297,12 @@ def test_the_command_writes_table_page_and_json_and_goes_on(tmp_path, capsys):
     assert "another study" in capsys.readouterr().err
 
 
-def test_the_command_tells_bad_recordings_by_its_exit_code(walks, tmp_path, capsys):
+def test_bad_recordings_show_in_the_exit_code_of_the_command(walks, tmp_path, capsys):
     words = ["study", "--devices", "hk4", "--pelvis", "recorded", "-o", str(tmp_path / "s.csv")]
     assert main([*words, "--recordings", str(walks)]) == 1
-    said = capsys.readouterr()
-    assert [line.split(":")[0] for line in said.err.splitlines()] == ["left out"] * 2
-    assert "2 left out" in said.out
+    printed = capsys.readouterr()
+    assert [line.split(":")[0] for line in printed.err.splitlines()] == ["left out"] * 2
+    assert "2 left out" in printed.out
     (walks / "good.csv").unlink()
     (walks / "below" / "also good.npz").unlink()
     assert main([*words[:-1], str(tmp_path / "none.csv"), "--recordings", str(walks)]) == 2
@@ -316,7 +315,7 @@ def test_the_command_ends_on_ctrl_c_with_a_line(tmp_path, capsys, monkeypatch):
 
     monkeypatch.setattr("exo_pin.study.run", interrupted)
     assert main(["study", "-o", str(tmp_path / "s.csv")]) == 130
-    assert "the same command goes on" in capsys.readouterr().err
+    assert "the same command continues" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

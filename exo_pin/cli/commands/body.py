@@ -1,4 +1,4 @@
-"""`exo-pin body`: a body file from a person's measures, to be edited and given to the other commands."""
+"""`exo-pin body`: a body file from a person's measures, for the other commands."""
 
 from __future__ import annotations
 

@@ -1,18 +1,18 @@
-"""`exo-pin cycles`: a walk cut into cycles: mean and spread as a table, and the walk's numbers."""
+"""`exo-pin cycles`: a walk cut into cycles: mean and spread, spatiotemporal numbers."""
 
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+import math
+from typing import TYPE_CHECKING
 
 from exo_pin.anatomy import SIDES
-from exo_pin.cli import options, outliers, show, trials
-from exo_pin.errors import GaitError
+from exo_pin.cli import options, show, trials, walk_output
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.gait import Cycles, Gait
-    from exo_pin.robot import Robot
+    from exo_pin.kinematics import WalkNumbers
 
 _EXAMPLES = """examples:
   exo-pin cycles walk.mot                      numbers of the walk, against those of healthy adults
@@ -42,80 +42,30 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin import edit
     from exo_pin.formats import save_gait
     from exo_pin.gait import cycles, side_with_more_strides
-    from exo_pin.kinematics import with_events
+    from exo_pin.kinematics import curve_outliers, walk_numbers, with_events
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
-    odd = outliers.facts(gait)  # before the filter spreads them
+    outliers = curve_outliers(gait)  # before the filter spreads them
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
     cut = cycles(gait, args.side or side_with_more_strides(gait))
-    found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
+    found = walk_numbers(robot, gait)
     if args.json:
-        show.as_json(found)
+        more = {"source": gait.source, "outliers": walk_output.outliers_to_json(outliers)}
+        show.as_json(walk_output.numbers_to_json(gait, found) | more)
     else:
-        _print(args, cut, found)
+        _print(args, cut, gait, found)
+        walk_output.print_outliers(outliers)
     if args.output:
         _write(args.output, cut, gait.source)
         if not args.json:
-            print(f"{args.output}: {len(cut.percent)} points of {count(cut)}")
+            print(f"{args.output}: {len(cut.percent)} points of {walk_output.count(cut)}")
     if args.mean:
-        save_gait(cut.average(f"{gait.source}; mean of {count(cut)}"), args.mean)
+        save_gait(cut.average(f"{gait.source}; mean of {walk_output.count(cut)}"), args.mean)
     return 0
-
-
-def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
-    """Cycles by side, spans that are none and why, the spatiotemporal numbers; or why there are none."""
-    from exo_pin.gait import against_normal, normal, strides
-    from exo_pin.gait.reference_values import CITATIONS
-    from exo_pin.kinematics import spatiotemporal
-
-    none: dict[str, Any] = {
-        "events_by": sorted({e.source or "not stated" for e in gait.events}),
-        "cycles": {},
-        "left_out": [],
-        "spatiotemporal": {},
-        "sources": {},
-    }
-    try:
-        numbers = spatiotemporal(robot, gait)
-    except GaitError as error:
-        return none | {"no_cycles": str(error)}
-    spans = [span for side in SIDES for span in strides(gait, side)]
-    legs = robot.body.leg_length if robot.body else float("nan")
-    usual, verdicts = normal(numbers, leg_length=legs), against_normal(numbers, leg_length=legs)
-    return none | {
-        "cycles": {side: sum(span.side == side and not span.why for span in spans) for side in SIDES},
-        "left_out": [
-            {"side": x.side, "start_s": x.start, "end_s": x.end, "why": x.why} for x in spans if x.why
-        ],
-        "spatiotemporal": {
-            name: {
-                "mean": x.mean,
-                "sd": None if x.sd != x.sd else x.sd,
-                "n": x.n,
-                "unit": x.unit,
-                "normal": verdicts.get(name),
-                "usual": usual[name]._asdict() if name in usual else None,
-            }
-            for name, x in numbers.items()
-        },
-        "sources": {key: CITATIONS[key] for key in CITATIONS if key in {x.source for x in usual.values()}},
-        "no_cycles": "",
-    }
-
-
-def print_left_out(found: dict[str, Any]) -> None:
-    """Spans between heel strikes that are no strides, and why."""
-    for span in found["left_out"]:
-        print(f"left out: {span['side']} {span['start_s']:.2f} .. {span['end_s']:.2f} s: {span['why']}")
-
-
-def count(cut: Cycles) -> str:
-    """How many cycles of which foot."""
-    return f"{len(cut)} cycle{'s' * (len(cut) != 1)} of the {cut.side} foot"
 
 
 def _rounded(value: float, unit: str) -> str:
@@ -123,39 +73,40 @@ def _rounded(value: float, unit: str) -> str:
     return show.fixed(value, 3 if unit in ("m", "s", "m/s") else 1)
 
 
-def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
-    print(f"source: {found['source'] or 'not stated'}; events: {', '.join(found['events_by'])}")
+def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers) -> None:
     from exo_pin.gait.zeni_method import ZENI
 
-    sources = list(found["sources"])
-    rows = [
-        [
-            f"{name.replace('_', ' ')}, {x['unit']}",
-            _rounded(x["mean"], x["unit"]),
-            "-" if x["sd"] is None else _rounded(x["sd"], x["unit"]),
-            str(x["n"]),
-            f"{x['usual']['low']:.3g} .. {x['usual']['high']:.3g}" if x["usual"] else "-",
-            x["normal"] or "-",
-            str(sources.index(x["usual"]["source"]) + 1) if x["usual"] else "-",
-        ]
-        for name, x in found["spatiotemporal"].items()
-    ]
-    title = f"{args.gait}: {count(cut)}"
-    show.table(title, ["number", "mean", "sd", "n", "usual", "this", "source"], rows)
-    for k, citation in enumerate(found["sources"].values()):
-        print(f"{k + 1}  {citation}")
+    sources = walk_output.event_sources(gait)
+    print(f"source: {gait.source or 'not stated'}; events: {', '.join(sources)}")
+    title = f"{args.gait}: {walk_output.count(cut)}"
+    columns = ["number", "mean", "sd", "n", "usual", "this", "source"]
+    show.table(title, columns, [_row(name, found) for name in found.numbers])
+    for k, citation in enumerate(found.citations.values(), 1):
+        print(f"{k}  {citation}")
     print("-  no published range was checked")
-    if any(ZENI in by and "plate" not in by for by in found["events_by"]):
+    if any(ZENI in source and "plate" not in source for source in sources):
         print(
             "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
         )
         print("come out too long; --forces sets them by force plates")
     if args.gait not in SPEEDS and not trials.sized(args):
-        print("lengths and width are the default body's: --stature, --hip-width or --body tell the person's")
+        print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
-    print_left_out(found)
-    outliers.show(found["outliers"])
+    walk_output.print_left_out(found)
+
+
+def _row(name: str, found: WalkNumbers) -> list[str]:
+    number, usual = found.numbers[name], found.usual.get(name)
+    return [
+        f"{name.replace('_', ' ')}, {number.unit}",
+        _rounded(number.mean, number.unit),
+        "-" if math.isnan(number.sd) else _rounded(number.sd, number.unit),
+        str(number.n),
+        "-" if usual is None else f"{usual.low:.3g} .. {usual.high:.3g}",
+        found.verdicts.get(name, "-"),
+        "-" if usual is None else str(list(found.citations).index(usual.source) + 1),
+    ]
 
 
 def _write(path: str, cut: Cycles, source: str) -> None:
@@ -168,5 +119,5 @@ def _write(path: str, cut: Cycles, source: str) -> None:
     pairs = np.stack([cut.mean, cut.sd], axis=2).reshape(len(cut.percent), -1)
     rows = np.column_stack([cut.percent, np.degrees(pairs)]).tolist()
     lines = [",".join("" if x != x else repr(x) for x in row) for row in rows]
-    head = [f"# {count(cut)}, mean and standard deviation", f"# source: {source}"]
+    head = [f"# {walk_output.count(cut)}, mean and standard deviation", f"# source: {source}"]
     write_text(path, "\n".join([*head, ",".join(names), *lines, ""]))

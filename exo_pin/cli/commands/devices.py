@@ -1,4 +1,4 @@
-"""`exo-pin devices`: the exoskeletons and planar models that this package knows, or one of them in full."""
+"""`exo-pin devices`: the known exoskeletons and planar models, or one of them in full."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import argparse
 import math
 from typing import Any
 
-from exo_pin.anatomy.names import Movement
 from exo_pin.cli import show
 from exo_pin.devices import DEVICES, Device, find, movement_of
 
@@ -28,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
     """Print the list, or one device."""
     chosen = list(DEVICES.values()) if args.device is None else [find(args.device)]
     if args.json:
-        show.as_json({device.name: facts(device) for device in chosen})
+        show.as_json({device.name: _to_json(device) for device in chosen})
     elif args.device is None:
         _print_all(chosen)
     else:
@@ -36,7 +35,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def facts(device: Device) -> dict[str, Any]:
+def _to_json(device: Device) -> dict[str, Any]:
     """A device as plain values for JSON."""
     return {
         "title": device.title,
@@ -55,7 +54,7 @@ def facts(device: Device) -> dict[str, Any]:
     }
 
 
-def movements(joints: tuple[str, ...]) -> str:
+def _movements(joints: tuple[str, ...]) -> str:
     """Joints in a few words: `hip_flexion, knee_flexion`, a side named only where the other lacks it."""
     names = []
     for joint in joints:
@@ -72,7 +71,7 @@ def _print_all(chosen: list[Device]) -> None:
 
 def _driven(device: Device) -> str:
     toes = ", toe_dorsiflexion" if device.toes else ""
-    return (movements(device.joints) if device.locked else "all six") + toes
+    return (_movements(device.joints) if device.locked else "all six") + toes
 
 
 def _pelvis(device: Device) -> str:
@@ -83,9 +82,9 @@ def _pelvis(device: Device) -> str:
 
 def _print_one(device: Device) -> None:
     lines = {
-        "driven": movements(device.joints),
-        "passive": movements(device.passive),
-        "locked": movements(tuple(j for j in device.locked if j not in device.passive)),
+        "driven": _movements(device.joints),
+        "passive": _movements(device.passive),
+        "locked": _movements(tuple(j for j in device.locked if j not in device.passive)),
         "pelvis": _pelvis(device),
         "toes": "driven" if device.toes else "-",
         "treadmill": _span(device.treadmill, 3.6, "km/h"),
@@ -102,7 +101,7 @@ def _span(pair: tuple[float, float] | None, scale: float, unit: str) -> str:
     return "-" if pair is None else f"{scale * pair[0]:g} .. {scale * pair[1]:g} {unit}"
 
 
-def _row(device: Device, movement: Movement) -> list[str]:
+def _row(device: Device, movement: str) -> list[str]:
     actuator = device.actuators[movement]
     slide = movement.startswith("pelvis_")
     force, speed = ("N", "m/s") if slide else ("N m", "rad/s")
@@ -110,7 +109,7 @@ def _row(device: Device, movement: Movement) -> list[str]:
     return [movement, effort, f"{actuator.velocity:g} {speed}", _range(device, movement, slide=slide)]
 
 
-def _range(device: Device, movement: Movement, *, slide: bool) -> str:
+def _range(device: Device, movement: str, *, slide: bool) -> str:
     if movement not in device.ranges:
         return "the body's"
     pair = device.ranges[movement]

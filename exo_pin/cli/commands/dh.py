@@ -1,4 +1,4 @@
-"""`exo-pin dh`: Craig's modified Denavit-Hartenberg table of this body, in the format one works in."""
+"""`exo-pin dh`: Craig's modified Denavit-Hartenberg table of a body, as Markdown, CSV, LaTeX or MATLAB."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_hip_order(parser)
 
 
-class _Table(NamedTuple):
-    """One leg's table, with T_pelvis_0 before it and T_6_foot behind it."""
+class _LegTable(NamedTuple):
+    """The table of a leg, with T_pelvis_0 before it and T_6_foot behind it."""
 
     side: Side
     rows: Sequence[DHRow]
@@ -55,14 +55,15 @@ def run(args: argparse.Namespace) -> int:
         f"{difference:.1e}"
     )
     legs = [
-        _Table(side, table(body, side, hip_order=order), *ends(body, side, hip_order=order)) for side in SIDES
+        _LegTable(side, table(body, side, hip_order=order), *ends(body, side, hip_order=order))
+        for side in SIDES
     ]
     print(_FORMATS[args.format](legs, note))
     return 0
 
 
 def _matrix(T: Array, separator: str = "; ") -> str:
-    """The upper three rows; rounding of exact zeros taken out."""
+    """The upper three rows as text, with exact zeros where rounding left almost none."""
     return separator.join(" ".join(f"{x:g}" for x in np.round(row, 12) + 0.0) for row in T[:3])
 
 
@@ -83,13 +84,13 @@ def _cells(rows: Sequence[DHRow]) -> list[list[str]]:
 _HEAD = ["joint", "i", "alpha_{i-1} [deg]", "a_{i-1} [m]", "theta_i [deg]", "d_i [m]"]
 
 
-def _markdown(legs: Sequence[_Table], note: str) -> str:
+def _markdown(legs: Sequence[_LegTable], note: str) -> str:
     lines = [_HEAD, ["---"] * len(_HEAD), *(cells for leg in legs for cells in _cells(leg.rows))]
     drawn = "\n".join("| " + " | ".join(line) + " |" for line in lines)
     return f"{drawn}\n\n{note}\n\n{_ends(legs, '- ')}"
 
 
-def _ends(legs: Sequence[_Table], mark: str) -> str:
+def _ends(legs: Sequence[_LegTable], mark: str) -> str:
     return "\n".join(
         f"{mark}{leg.side} leg: {name} = [{_matrix(T)}; 0 0 0 1]"
         for leg in legs
@@ -97,7 +98,7 @@ def _ends(legs: Sequence[_Table], mark: str) -> str:
     )
 
 
-def _csv(legs: Sequence[_Table], note: str) -> str:
+def _csv(legs: Sequence[_LegTable], note: str) -> str:
     lines = [
         f"{row.joint},{i},{row.alpha!r},{row.a!r},{row.offset!r},{row.d!r}"
         for leg in legs
@@ -106,7 +107,7 @@ def _csv(legs: Sequence[_Table], note: str) -> str:
     return "\n".join([f"# {note}", _ends(legs, "# "), "joint,i,alpha_rad,a_m,theta_offset_rad,d_m", *lines])
 
 
-def _latex(legs: Sequence[_Table], note: str) -> str:
+def _latex(legs: Sequence[_LegTable], note: str) -> str:
     head = r"joint & $i$ & $\alpha_{i-1}$ [deg] & $a_{i-1}$ [m] & $\theta_i$ [deg] & $d_i$ [m] \\ \hline"
     lines = []
     for joint, i, alpha, a, theta, d in (cells for leg in legs for cells in _cells(leg.rows)):
@@ -116,7 +117,7 @@ def _latex(legs: Sequence[_Table], note: str) -> str:
     return "\n".join([*top, *lines, r"\hline", r"\end{tabular}"])
 
 
-def _matlab(legs: Sequence[_Table], note: str) -> str:
+def _matlab(legs: Sequence[_LegTable], note: str) -> str:
     lines = [f"% {note}"]
     for leg in legs:
         lines.append(f"{leg.side} = SerialLink([")
@@ -128,12 +129,12 @@ def _matlab(legs: Sequence[_Table], note: str) -> str:
         lines.append(f"], 'name', '{leg.side} leg');")
         lines += [
             f"{leg.side}.{name} = [{_matrix(T)}; 0 0 0 1];"
-            for name, T in zip(("base", "tool"), leg[2:], strict=True)
+            for name, T in (("base", leg.base), ("tool", leg.tool))
         ]
     return "\n".join(lines)
 
 
-_FORMATS: dict[str, Callable[[Sequence[_Table], str], str]] = {
+_FORMATS: dict[str, Callable[[Sequence[_LegTable], str], str]] = {
     "markdown": _markdown,
     "csv": _csv,
     "latex": _latex,

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show
+from exo_pin.cli import options, show, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -131,16 +131,14 @@ def _filter(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> G
 
 
 def _cycle(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
-    from exo_pin.cli.commands import cycles
-    from exo_pin.gait import cycles as cut
-    from exo_pin.gait import side_with_more_strides
+    from exo_pin.gait import cycles, side_with_more_strides
     from exo_pin.kinematics import with_events
 
     if not args.cycle:
         return gait
     known = with_events(robot, gait)
-    found = cut(known, side_with_more_strides(known))
-    return found.average(f"{gait.source}; mean of {cycles.count(found)}")
+    found = cycles(known, side_with_more_strides(known))
+    return found.average(f"{gait.source}; mean of {walk_output.count(found)}")
 
 
 def _symmetric(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:

@@ -1,12 +1,19 @@
-"""`exo-pin info`: what a gait holds: time, joint ranges, events, what lies outside the limits."""
+"""`exo-pin info`: the content of a gait file: time, joint ranges, events, cycles, outliers."""
 
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import dataclass
+from math import degrees
+from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, outliers, show, trials
-from exo_pin.cli.commands import cycles
+from exo_pin.cli import options, show, trials, walk_output
+
+if TYPE_CHECKING:
+    from exo_pin.arrays import Array
+    from exo_pin.demand import RangeDemand
+    from exo_pin.gait import Gait
+    from exo_pin.kinematics import CurveOutlier, WalkNumbers
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
@@ -24,80 +31,123 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what the gait holds."""
-    facts = _facts(args)
+    found = _found(args)
     if args.json:
-        show.as_json(facts)
-        return 0
-    rows = [
-        [
-            joint,
-            show.fixed(r["min_deg"]),
-            show.fixed(r["max_deg"]),
-            show.fixed(r["peak_speed_deg_s"], 0),
-            r["outside"] or "-",
-        ]
-        for joint, r in facts["joints"].items()
-    ]
-    kind = "one cycle, repeated" if facts["periodic"] else "a recording"
-    title = f"{args.gait}: {kind}, {facts['samples']} samples in {facts['duration_s']:.3f} s"
-    columns = ["joint", "min deg", "max deg", "peak deg/s", "outside limits"]
-    show.table(title, columns, [[str(cell) for cell in row] for row in rows])
-    moves = "pelvis moves" if facts["pelvis_moves"] else "pelvis does not move"
-    print(f"source: {facts['source'] or 'not stated'}\n{moves}; events: {len(facts['events']) or 'none'}")
-    for event in facts["events"]:
-        print(f"  {event['time_s']:.3f} s  {event['side']} {event['kind']}  ({event['source']})")
-    if facts["events_note"] and facts["no_cycles"] not in facts["events_note"]:
-        print(f"  {facts['events_note']}")
-    _print_walk(facts)
+        show.as_json(_to_json(found))
+    else:
+        _print(args.gait, found)
     return 0
 
 
-def _print_walk(facts: dict[str, Any]) -> None:
-    """Cycles and plausibility."""
-    if facts["cycles"]:
-        counts = ", ".join(f"{n} {side}" for side, n in facts["cycles"].items())
-        speed, cadence = (facts["spatiotemporal"].get(name, {}) for name in ("speed", "cadence"))
-        print(f"cycles: {counts}; {speed['mean']:.2f} m/s, {cadence['mean']:.0f} steps/min (exo-pin cycles)")
-    else:
-        print(f"cycles: {facts['no_cycles']}")
-    cycles.print_left_out(facts)
-    outliers.show(facts["outliers"])
-    print("plausible" if not facts["doubts"] else "doubtful: " + "; ".join(facts["doubts"]))
+@dataclass(frozen=True, eq=False)
+class _Info:
+    """What a gait file holds.
+
+    Attributes:
+        gait: The walk, with its events or those of its kinematics.
+        events_note: Why there are no events; empty where there are.
+        ranges: By joint: the range of the angles against the robot's limits.
+        peak_speeds: Of the joints in the same order [rad/s].
+        numbers: Cycles and spatiotemporal numbers.
+        outliers: Samples that stand out of their curve.
+        warnings: Reasons to doubt how the file was read.
+        markers: How well a marker trial's markers are met, for JSON; None for other files.
+    """
+
+    gait: Gait
+    events_note: str
+    ranges: dict[str, RangeDemand]
+    peak_speeds: Array
+    numbers: WalkNumbers
+    outliers: tuple[CurveOutlier, ...]
+    warnings: tuple[str, ...]
+    markers: dict[str, Any] | None
 
 
-def _facts(args: argparse.Namespace) -> dict[str, Any]:
+def _found(args: argparse.Namespace) -> _Info:
     import numpy as np
 
     from exo_pin.demand import range_demands
     from exo_pin.gait import implausibilities
+    from exo_pin.kinematics import curve_outliers, walk_numbers
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
     robot = load_robot(body)
     gait, note = options.with_events(robot, options.gait_from(args, body))
-    ranges = range_demands(robot, robot.from_gait(gait))
-    peaks = np.degrees(np.abs(gait.dq).max(axis=0))
+    return _Info(
+        gait=gait,
+        events_note=note,
+        ranges=range_demands(robot, robot.from_gait(gait)),
+        peak_speeds=np.abs(gait.dq).max(axis=0),
+        numbers=walk_numbers(robot, gait),
+        outliers=curve_outliers(gait),
+        warnings=(*implausibilities(gait), *trials.doubts(args)),
+        markers=trials.facts(args),
+    )
+
+
+def _to_json(found: _Info) -> dict[str, Any]:
+    gait = found.gait
     return {
         "source": gait.source,
-        "samples": len(gait.time),
+        "samples": len(gait),
         "duration_s": gait.duration,
         "periodic": gait.periodic,
         "pelvis_moves": gait.base is not None,
         "joints": {
             joint: {
-                "min_deg": float(np.degrees(demand.lowest)),
-                "max_deg": float(np.degrees(demand.highest)),
-                "peak_speed_deg_s": float(peak),
+                "min_deg": degrees(demand.lowest),
+                "max_deg": degrees(demand.highest),
+                "peak_speed_deg_s": degrees(speed),
                 "outside": demand.samples_outside,
             }
-            for peak, (joint, demand) in zip(peaks, ranges.items(), strict=True)
+            for speed, (joint, demand) in zip(found.peak_speeds, found.ranges.items(), strict=True)
         },
         "events": [
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
         ],
-        "events_note": note,
-        "markers": trials.facts(args),
-        "outliers": outliers.facts(gait),
-        "doubts": [*implausibilities(gait), *trials.doubts(args)],
-        **cycles.facts(robot, gait),
+        "events_note": found.events_note,
+        "markers": found.markers,
+        "outliers": walk_output.outliers_to_json(found.outliers),
+        "doubts": list(found.warnings),
+        **walk_output.numbers_to_json(gait, found.numbers),
     }
+
+
+def _print(name: str, found: _Info) -> None:
+    gait = found.gait
+    rows = [
+        [
+            joint,
+            show.fixed(degrees(demand.lowest)),
+            show.fixed(degrees(demand.highest)),
+            show.fixed(degrees(speed), 0),
+            str(demand.samples_outside or "-"),
+        ]
+        for speed, (joint, demand) in zip(found.peak_speeds, found.ranges.items(), strict=True)
+    ]
+    kind = "one cycle, repeated" if gait.periodic else "a recording"
+    title = f"{name}: {kind}, {len(gait)} samples in {gait.duration:.3f} s"
+    show.table(title, ["joint", "min deg", "max deg", "peak deg/s", "outside limits"], rows)
+    moves = "pelvis does not move" if gait.base is None else "pelvis moves"
+    print(f"source: {gait.source or 'not stated'}\n{moves}; events: {len(gait.events) or 'none'}")
+    for event in gait.events:
+        print(f"  {event.time:.3f} s  {event.side} {event.kind}  ({event.source})")
+    if found.events_note and found.numbers.missing not in found.events_note:
+        print(f"  {found.events_note}")
+    _print_numbers(found)
+
+
+def _print_numbers(found: _Info) -> None:
+    """Cycles, outliers and warnings."""
+    numbers = found.numbers
+    if numbers.missing:
+        print(f"cycles: {numbers.missing}")
+    else:
+        counts = ", ".join(f"{n} {side}" for side, n in numbers.cycles.items())
+        speed, cadence = (numbers.numbers[name].mean for name in ("speed", "cadence"))
+        print(f"cycles: {counts}; {speed:.2f} m/s, {cadence:.0f} steps/min (exo-pin cycles)")
+    walk_output.print_left_out(numbers)
+    walk_output.print_outliers(found.outliers)
+    print("doubtful: " + "; ".join(found.warnings) if found.warnings else "plausible")

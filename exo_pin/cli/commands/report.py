@@ -1,4 +1,4 @@
-"""`exo-pin report`: one walk as one self-contained page for an engineer or a clinician."""
+"""`exo-pin report`: one walk as a self-contained page for an engineer or a clinician."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ _EXAMPLES = """examples:
 The page holds everything and loads nothing; the browser's own "print" makes a PDF of it (with --still, the
 model is on paper too)."""
 
-CUTOFF = 6.0
-_STILL = 0.1  # share of the walk that the picture for paper shows
-_PAPER = (1400, 800)  # its size [px]
+_CUTOFF = 6.0  # [Hz]
+_STILL_PHASE = 0.1  # share of the walk that the picture for paper shows
+_STILL_SIZE = (1400, 800)  # [px]
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -49,7 +49,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--filter",
         type=float,
-        default=CUTOFF,
+        default=_CUTOFF,
         metavar="HZ",
         help="low-pass of a recording's velocities and accelerations; 0: none (default: 6)",
     )
@@ -74,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
     gait, note = options.with_events(load_robot(body), gait)
     robot = load_robot(body, device=args.device, hip_order=args.hip_order)
     name = Path(args.gait).name
-    about = report.About(
+    info = report.ReportInfo(
         title=args.title or f"Gait report: {name}",
         who=args.who,
         what=name,
@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
         document = report.walk(
             robot,
             gait,
-            about=about,
+            info=info,
             player=player,
             still=still,
             normal=None if args.normal == "none" else args.normal,
@@ -100,17 +100,17 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, bytes]:
-    """The offline page as text, and its picture for paper if one is asked for."""
+    """The offline page as text, and its picture for paper if `--still` is given."""
     from exo_pin import viewer
     from exo_pin.viewer.film import shots
 
     scene = shown_walk.scene(args, body, gait)
-    still = shots.picture(scene, phase=_STILL, size=_PAPER) if args.still else b""
+    still = shots.picture(scene, phase=_STILL_PHASE, size=_STILL_SIZE) if args.still else b""
     return viewer.html(scene), still
 
 
 def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
-    """What the command line chose."""
+    """The choices of the command line, by name."""
     chosen = {
         "sign preset of the file": args.preset or "none given",
         "columns": ", ".join(args.map) if args.map else "under their own names",
@@ -130,7 +130,7 @@ def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
 
 
 def _body(args: argparse.Namespace) -> str:
-    """Where the body's sizes come from."""
+    """The source of the body's sizes."""
     names = ("stature", "mass", "sex", "waist_width", "hip_width")
     measures = [f"{name} {value}" for name in names if (value := getattr(args, name)) is not None]
     measures += args.set

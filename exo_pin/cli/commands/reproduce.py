@@ -1,4 +1,4 @@
-"""`exo-pin reproduce`: the paper's figures from our data, and a page that says what each shows."""
+"""`exo-pin reproduce`: the paper's figures from our data, with a page that compares."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import io
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from exo_pin.cli import options, show, trials
 from exo_pin.errors import ExoPinError, FormatError
@@ -15,7 +15,7 @@ from exo_pin.files import write_bytes, write_text
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
-    from exo_pin.report import Rendered
+    from exo_pin.report import RenderedPictures
     from exo_pin.robot import Robot
 
 _EXAMPLES = """examples:
@@ -27,8 +27,8 @@ Writes reproduction.html (one self-contained page), reproduction.md, and every f
 The 3-D pictures need Chromium; without it line drawings take their place, and the page says so."""
 
 _POSES = 10
-_POSE = (300, 460)  # pixels of one of the poses
-_MODEL = (1200, 900)
+_POSE_SIZE = (300, 460)  # [px]
+_MODEL_SIZE = (1200, 900)  # [px]
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -89,38 +89,39 @@ def _folder(name: str) -> Path:
     return folder
 
 
-def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> Rendered:
-    """The model and ten poses by the browser; nothing where there is none, and a line that says so."""
+def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> RenderedPictures:
+    """The model and ten poses rendered by the browser; without one, empty and a line on stderr."""
     from exo_pin import viewer
-    from exo_pin.report import Rendered
+    from exo_pin.report import RenderedPictures
     from exo_pin.viewer.film import shots
 
     if args.no_render:
-        return Rendered()
-    scene = viewer.scene(robot, gait, title="the walk")
-    look: dict[str, Any] = {"quality": args.quality}
+        return RenderedPictures()
+    scene, quality = viewer.scene(robot, gait, title="the walk"), args.quality
     phases = [k / _POSES for k in range(_POSES)]
     try:
-        model = shots.picture(scene, size=_MODEL, **look)
-        poses = shots.pictures(scene, phases, camera="left", size=_POSE, legend=False, **look)
+        model = shots.picture(scene, size=_MODEL_SIZE, quality=quality)
+        poses = shots.pictures(
+            scene, phases, camera="left", size=_POSE_SIZE, legend=False, quality=args.quality
+        )
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
-        return Rendered()
-    return Rendered(model=model, poses=_sheet(poses))
+        return RenderedPictures()
+    return RenderedPictures(model=model, poses=_side_by_side(poses))
 
 
-def _sheet(shots: Sequence[bytes]) -> bytes:
+def _side_by_side(pictures: Sequence[bytes]) -> bytes:
     """Pictures side by side in two rows, each with its percent of the cycle, as PNG."""
     from PIL import Image, ImageDraw, ImageFont
 
-    half = (len(shots) + 1) // 2
-    width, height = _POSE
-    sheet = Image.new("RGB", (half * width, 2 * height), "white")
-    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(24)
-    for k, shot in enumerate(shots):
+    half = (len(pictures) + 1) // 2
+    width, height = _POSE_SIZE
+    whole = Image.new("RGB", (half * width, 2 * height), "white")
+    pen, font = ImageDraw.Draw(whole), ImageFont.load_default(24)
+    for k, picture in enumerate(pictures):
         x, y = k % half * width, k // half * height
-        sheet.paste(Image.open(io.BytesIO(shot)), (x, y))
-        pen.text((x + 14, y + 12), f"{100 * k / len(shots):.0f} %", fill="#1d2733", font=font)
+        whole.paste(Image.open(io.BytesIO(picture)), (x, y))
+        pen.text((x + 14, y + 12), f"{100 * k / len(pictures):.0f} %", fill="#1d2733", font=font)
     file = io.BytesIO()
-    sheet.save(file, "PNG", optimize=True)
+    whole.save(file, "PNG", optimize=True)
     return file.getvalue()

@@ -1,4 +1,4 @@
-"""`exo-pin study`: all devices under many walks and on many bodies, as a tidy table and a page of figures."""
+"""`exo-pin study`: all devices under many walks and on many bodies: a table and a page of figures."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import PelvisMotion
 from exo_pin.cli import options, show
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
@@ -27,13 +28,12 @@ _EXAMPLES = """examples:
   exo-pin study --speeds free --devices exo12 lokomat mine.toml --pelvis recorded -o mine.csv
   exo-pin study --recordings walks -o walks.csv        every recording in a folder
 
-A study that was interrupted goes on where it was when the same command is given again, and a finished one
-may be given more devices, speeds, statures or recordings: rows that are there are not computed again. A
-recording that cannot be used is told in a line and left out; the exit code is then 1. docs/study.md explains
-the columns, and how the same study runs on a cluster."""
+The same command continues a study that was interrupted. A finished study may get more devices, speeds,
+statures or recordings: existing rows are not computed again. A recording that cannot be used is reported in a
+line and left out; the exit code is then 1. docs/study.md explains the columns, and how the same study runs on
+a cluster."""
 
-
-_PELVIS: dict[str, tuple[Literal["recorded", "device"], ...]] = {
+_PELVIS: dict[str, tuple[PelvisMotion, ...]] = {
     "recorded": ("recorded",),
     "device": ("device",),
     "both": ("recorded", "device"),
@@ -100,20 +100,20 @@ def run(args: argparse.Namespace) -> int:
             done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
     except KeyboardInterrupt:
         left = study.part(args.output)
-        print(f"stopped; what is done is in {left}, and the same command goes on", file=sys.stderr)
+        print(f"stopped; finished rows are in {left}, and the same command continues", file=sys.stderr)
         return 130
     page = "" if args.no_page or not done.rows else _write_page(args, done)
-    facts = _facts(args, done, len(cases), page, time.perf_counter() - start)
+    seconds = time.perf_counter() - start
     if args.json:
-        show.as_json(facts)
+        show.as_json(_to_json(args.output, done, cases=len(cases), page=page, seconds=seconds))
     else:
-        _print(facts, done)
+        _print(args.output, done, page=page, seconds=seconds)
     return (1 if done.rows else 2) if done.failures else 0
 
 
 @contextmanager
 def _stoppable() -> Iterator[None]:
-    """SIGTERM, which schedulers send before they kill, ends a study as Ctrl-C does."""
+    """SIGTERM, which schedulers send before they kill, stops a study as Ctrl-C does."""
     before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield
@@ -131,7 +131,7 @@ def _check_names(args: argparse.Namespace) -> None:
     if args.body and not args.recordings:
         raise DescriptionError("--body is for --recordings; the normal walk is studied on --statures")
     if args.body and args.statures:
-        raise DescriptionError("--body and --statures both say who wears the recordings")
+        raise DescriptionError("--body and --statures exclude each other: both set who wears the recordings")
 
 
 def _plan(args: argparse.Namespace) -> list[Case]:
@@ -142,13 +142,13 @@ def _plan(args: argparse.Namespace) -> list[Case]:
         "devices": args.devices or tuple(devices.DEVICES),
         "conditions": [Conditions(pelvis, args.passive) for pelvis in _PELVIS[args.pelvis]],
     }
-    asked = args.statures is not None or args.step is not None
-    low, high = args.statures or study.STATURES
-    of = study.statures(low, high, study.STEP if args.step is None else args.step)
+    on_statures = args.statures is not None or args.step is not None
+    low, high = args.statures or study.STATURE_RANGE
+    of = study.statures(low, high, study.STATURE_STEP if args.step is None else args.step)
     cases = []
     if args.recordings:
         on: list[Body | None] = [Body.load(args.body)] if args.body else [None]
-        if asked:
+        if on_statures:
             on = list(study.bodies(of, mass=args.mass, sex=args.sex))
         cases += study.recordings(args.recordings, on, preset=args.preset, **common)
     if args.speeds or not args.recordings:
@@ -172,12 +172,12 @@ def _write_page(args: argparse.Namespace, done: Study) -> str:
     return page
 
 
-def _facts(args: argparse.Namespace, done: Study, cases: int, page: str, seconds: float) -> dict[str, Any]:
+def _to_json(table: str, done: Study, *, cases: int, page: str, seconds: float) -> dict[str, Any]:
     return {
-        "table": args.output if done.rows else None,
+        "table": table if done.rows else None,
         "page": page or None,
-        "walks": len({(row.gait, row.stature_m) for row in done.rows}),
-        "devices": len({row.device for row in done.rows}),
+        "walks": done.walks,
+        "devices": done.devices,
         "rows": len(done.rows),
         "computed": done.computed,
         "kept": done.kept,
@@ -187,7 +187,7 @@ def _facts(args: argparse.Namespace, done: Study, cases: int, page: str, seconds
     }
 
 
-def _print(facts: dict[str, Any], done: Study) -> None:
+def _print(table: str, done: Study, *, page: str, seconds: float) -> None:
     if not done.rows:
         print("nothing could be used", file=sys.stderr)
         return
@@ -195,10 +195,10 @@ def _print(facts: dict[str, Any], done: Study) -> None:
 
     show.table("Sole error, best motion [mm]", *study.summary(done.rows))
     print(
-        f"{facts['table']}: {facts['rows']} rows ({facts['kept']} of them from before), "
-        f"{facts['walks']} walks, {facts['devices']} devices, {facts['seconds']:.1f} s"
+        f"{table}: {len(done.rows)} rows ({done.kept} of them from before), {done.walks} walks, "
+        f"{done.devices} devices, {seconds:.1f} s"
     )
-    if facts["page"]:
-        print(f"{facts['page']}: the figures, opens in any browser without a network")
+    if page:
+        print(f"{page}: the figures, opens in any browser without a network")
     if done.failures:
         print(f"{len(done.failures)} left out (see above)")

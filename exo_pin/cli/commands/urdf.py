@@ -1,13 +1,14 @@
-"""`exo-pin urdf`: the exoskeleton's URDF, any size or xacro argument changed."""
+"""`exo-pin urdf`: the URDF of the exoskeleton, with any size or xacro argument changed."""
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
 import sys
-from typing import Any
+from typing import Any, cast
 
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import HipOrder
 from exo_pin.anatomy.sizes import LEG_SIZES
 from exo_pin.cli import options
 from exo_pin.files import write_text
@@ -36,12 +37,14 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin import description
 
     given = dict(options.assignment(text, sign=":=") for text in args.assignments)
-    model = {name: str(given.pop(name)) for name in ("device", "hip_order") if name in given}
+    device = str(given.pop("device", "exo12"))
+    hip_order = cast(HipOrder, given.pop("hip_order", "clinical"))  # description.urdf refuses other words
     fields = {f.name for f in dataclasses.fields(Body)} | set(LEG_SIZES)
     args.set += [f"{name}={_plain(given.pop(name))}" for name in sorted(fields & set(given))]
     for name in ("stature", "mass", "sex"):
-        _hand_over(args, name)
-    text = description.urdf(options.body_from(args), **model, **{k: str(v) for k, v in given.items()})
+        _move_to_option(args, name)
+    xacro_arguments = {name: str(value) for name, value in given.items()}
+    text = description.urdf(options.body_from(args), device=device, hip_order=hip_order, **xacro_arguments)
     if args.output:
         write_text(args.output, text)
         print(f"{args.output}: {len(text)} bytes")
@@ -54,8 +57,8 @@ def _plain(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _hand_over(args: argparse.Namespace, name: str) -> None:
-    """`stature:=1.8` says the same as `--stature 1.8`."""
+def _move_to_option(args: argparse.Namespace, name: str) -> None:
+    """Make `stature:=1.8` the same as `--stature 1.8`."""
     for text in [t for t in args.set if t.startswith(f"{name}=")]:
         args.set.remove(text)
         setattr(args, name, options.assignment(text)[1])

@@ -1,1 +1,1 @@
-"""Documents as values, and what renders them as HTML or Markdown."""
+"""Documents as values, and their rendering as HTML or Markdown. They hold drawings and know no results."""

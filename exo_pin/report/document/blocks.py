@@ -1,19 +1,23 @@
-"""What a page is made of: sections of words, tables and drawings, as values without a look."""
+"""What a page consists of: sections of paragraphs, tables and figures, as values without formatting."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
+
+from exo_pin.report.draw.drawing import Drawing
 
 Rows = Sequence[Sequence[str]]
+ParagraphKind = Literal["", "note", "note screen"]
 
 
 @dataclass(frozen=True)
-class Words:
+class Paragraph:
     """A paragraph; `kind` is `"note"` for small print, `"note screen"` for what paper does not need."""
 
     text: str
-    kind: str = ""
+    kind: ParagraphKind = ""
 
 
 @dataclass(frozen=True)
@@ -30,26 +34,6 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Drawing:
-    """One picture: SVG text or the bytes of a PNG, and what it is called as a file."""
-
-    name: str
-    title: str
-    svg: str = ""
-    png: bytes = b""
-
-    @property
-    def file(self) -> str:
-        """Its file name."""
-        return f"{self.name}.svg" if self.svg else f"{self.name}.png"
-
-    @property
-    def data(self) -> bytes:
-        """What its file holds."""
-        return self.svg.encode() + b"\n" if self.svg else self.png
-
-
-@dataclass(frozen=True)
 class Figure:
     """Drawings side by side under one caption; `columns` at most (3: small, 2, 1: full width).
 
@@ -63,26 +47,26 @@ class Figure:
 
 @dataclass(frozen=True)
 class Tiles:
-    """Key numbers, large: what, value, and whether it is good (None: neither)."""
+    """Key numbers in large print: what, value, and whether it is good (None: neither)."""
 
     items: tuple[tuple[str, str, bool | None], ...]
 
 
 @dataclass(frozen=True)
 class Player:
-    """A whole HTML page in a frame of its own; on paper a PNG, if there is one."""
+    """A whole HTML page in a frame of its own; on paper a PNG, unless that is empty."""
 
     html: str
     title: str
     still: bytes = b""
 
 
-Block = Words | Table | Figure | Tiles | Player
+Block = Paragraph | Table | Figure | Tiles | Player
 
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and what stands under it."""
+    """A heading and the blocks under it."""
 
     title: str
     blocks: tuple[Block, ...]

@@ -1,4 +1,4 @@
-"""A document as one self-contained HTML page that loads nothing, and reads well on paper and on a phone."""
+"""A document as one self-contained HTML page, which loads nothing; for screen, phone and paper."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from html import escape
 from importlib import resources
 from typing import Any
 
-from exo_pin.report.document.blocks import Block, Document, Figure, Player, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Player, Section, Table, Tiles
 
-POLICY = (
+_POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
     "media-src blob:; frame-src 'self'; connect-src 'none'; base-uri 'none'; form-action 'none'"
 )
-"""Nothing is loaded from elsewhere; scripts are the embedded player's, which lives by this policy too."""
+"""The page loads nothing from elsewhere. The only scripts are the embedded player's, bound by it too."""
 
 
 def html(document: Document) -> str:
@@ -28,7 +28,7 @@ def html(document: Document) -> str:
     style = (resources.files("exo_pin.report.document") / "page.css").read_text("utf-8")
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{escape(POLICY)}">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(_POLICY)}">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<link rel="icon" href="data:,">\n<title>{title}</title>\n<style>{style}</style></head>\n'
         f'<body>\n<h1>{title}</h1>\n<p class="under">{escape(document.subtitle)}</p>\n'
@@ -42,7 +42,7 @@ def _section(section: Section) -> str:
     return "\n".join([*parts, "</section>"])
 
 
-def _words(block: Words) -> str:
+def _paragraph(block: Paragraph) -> str:
     kind = f' class="{block.kind}"' if block.kind else ""
     return f"<p{kind}>{escape(block.text)}</p>"
 
@@ -82,9 +82,9 @@ def _figure(block: Figure) -> str:
 
 
 def _tiles(block: Tiles) -> str:
-    looks = {True: "tile good", False: "tile bad", None: "tile"}
+    classes = {True: "tile good", False: "tile bad", None: "tile"}
     tiles = [
-        f'<div class="{looks[good]}"><b>{escape(value)}</b><span>{escape(what)}</span></div>'
+        f'<div class="{classes[good]}"><b>{escape(value)}</b><span>{escape(what)}</span></div>'
         for what, value, good in block.items
     ]
     return f'<div class="tiles">{"".join(tiles)}</div>'
@@ -103,7 +103,7 @@ def _player(block: Player) -> str:
 
 
 _BLOCKS: dict[type[Block], Callable[[Any], str]] = {
-    Words: _words,
+    Paragraph: _paragraph,
     Table: _table,
     Figure: _figure,
     Tiles: _tiles,

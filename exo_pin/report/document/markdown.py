@@ -1,12 +1,14 @@
-"""A document as Markdown; its drawings are files beside it."""
+"""A document as Markdown; its drawings are separate files beside it."""
 
 from __future__ import annotations
 
-from exo_pin.report.document.blocks import Block, Document, Figure, Section, Table, Tiles, Words
+from collections.abc import Iterable
+
+from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Section, Table, Tiles
 
 
 def markdown(document: Document) -> str:
-    """The document as Markdown text; a player has no place in it and is left out."""
+    """The document as Markdown text, without players."""
     parts = [f"# {_plain(document.title)}", _plain(document.subtitle)]
     parts += [_section(section) for section in document.sections]
     return "\n\n".join(parts) + "\n"
@@ -18,7 +20,7 @@ def _section(section: Section) -> str:
 
 
 def _block(block: Block) -> str:
-    if isinstance(block, Words):
+    if isinstance(block, Paragraph):
         return _plain(block.text)
     if isinstance(block, Table):
         return _table(block)
@@ -32,13 +34,16 @@ def _block(block: Block) -> str:
 
 def _table(table: Table) -> str:
     ends = [":--" if table.prose or not k else "--:" for k in range(len(table.columns))]
-    lines = [_row(table.columns), _row(ends, raw=True), *map(_row, table.rows)]
+    lines = [_row(_cells(table.columns)), _row(ends), *(_row(_cells(row)) for row in table.rows)]
     return (f"**{_plain(table.caption)}**\n\n" if table.caption else "") + "\n".join(lines)
 
 
-def _row(cells: object, *, raw: bool = False) -> str:
-    assert isinstance(cells, (list, tuple))
-    return "| " + " | ".join(cell if raw else _plain(cell).replace("|", "\\|") for cell in cells) + " |"
+def _row(cells: Iterable[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _cells(texts: Iterable[str]) -> list[str]:
+    return [_plain(text).replace("|", "\\|") for text in texts]
 
 
 def _plain(words: str) -> str:

@@ -1,1 +1,1 @@
-"""Drawings as SVG: charts, tables of numbers, stick figures."""
+"""Drawings as SVG: charts, tables of numbers, stick figures, devices. They know no document."""

@@ -52,17 +52,20 @@ class Span(NamedTuple):
 
 
 class Level(NamedTuple):
-    """A dashed horizontal line, e.g. a limit; `told`: the legend names it even where it is off the axis."""
+    """A dashed horizontal line, e.g. a limit.
+
+    `always_in_legend`: the legend names the line even where the axis does not reach it.
+    """
 
     y: float
     colour: str = svg.GREY
     label: str = ""
-    told: bool = False
+    always_in_legend: bool = False
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Chart:
-    """What to draw.
+    """The contents of a chart.
 
     Attributes:
         title: Heading; the y axis's unit belongs here.
@@ -73,7 +76,7 @@ class Chart:
         levels: Horizontal lines; they do not widen the y axis.
         x_range: From, to; that of the curves if left out.
         y_range: Likewise.
-        least: Smallest extent of the y axis, so that a still curve does not look restless.
+        least: Smallest extent of the y axis, so that noise is not enlarged to the whole axis.
         equal: One unit is as long on both axes; the height follows.
         width: Of the picture [px].
         height: Of the picture without its legend [px].
@@ -121,8 +124,8 @@ def draw(chart: Chart) -> str:
     frame = _frame(chart)
     top = frame.top + frame.height + _BOTTOM
     keys, rows = legend.rows(_marks(chart, frame), frame.left, top, chart.width)
-    height = top + legend.ROW * rows
-    clip = f"c{zlib.crc32(repr(frame).encode()):x}"  # the same area has the same name, and that is harmless
+    height = top + legend.ROW_HEIGHT * rows
+    clip = f"c{zlib.crc32(repr(frame).encode()):x}"  # equal areas share a name, which does no harm
     inner = [*_spans(chart, frame), *_bands(chart, frame), *_levels(chart, frame), *_curves(chart, frame)]
     area = {"x": frame.left, "y": frame.top, "width": frame.width, "height": frame.height}
     parts = [
@@ -225,7 +228,7 @@ def _marks(chart: Chart, frame: _Frame) -> dict[str, str]:
     for level in chart.levels:
         if level.label in seen:
             marks[level.label] = _dash(level.colour, "2 3", 1.6)
-        elif level.told:
+        elif level.always_in_legend:
             marks[f"{level.label}: off the axis"] = _dash(level.colour, "2 3", 1.6)
     marks |= {span.label: _swatch(span.colour, 0.12 if span.lane is None else 0.75) for span in chart.spans}
     marks.pop("", None)

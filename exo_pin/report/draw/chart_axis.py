@@ -1,4 +1,4 @@
-"""Axes: round ticks, their labels, and the range that a chart shows."""
+"""Axes of charts: round ticks, their labels, and the range that is shown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,13 @@ from numpy.typing import ArrayLike
 
 
 def ticks(low: float, high: float, count: int = 5) -> list[float]:
-    """Round numbers (1, 2, 5 times a power of ten) from low to high, about `count` of them."""
+    """Round numbers: 1, 2 or 5 times a power of ten.
+
+    Args:
+        low: Lower end of the axis.
+        high: Upper end of the axis.
+        count: About how many.
+    """
     raw = (high - low) / max(count, 1)
     power = 10.0 ** math.floor(math.log10(raw))
     step = next(power * k for k in (1, 2, 5, 10) if power * k >= raw * 0.72)
@@ -17,7 +23,13 @@ def ticks(low: float, high: float, count: int = 5) -> list[float]:
 
 
 def extent(values: list[ArrayLike], least: float, *, pad: float = 0.06) -> tuple[float, float]:
-    """The finite values' range, widened by `pad` and to at least `least`; 0 .. 1 if there are none."""
+    """Lower and upper end of an axis for some values; 0 and 1 where none is finite.
+
+    Args:
+        values: Arrays of any shape; NaN and infinity do not count.
+        least: Smallest extent of the axis.
+        pad: Room at either end, as a share of the extent.
+    """
     flat = np.concatenate([np.ravel(np.asarray(v, dtype=float)) for v in values] or [np.zeros(0)])
     flat = flat[np.isfinite(flat)]
     if not len(flat):

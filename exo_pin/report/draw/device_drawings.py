@@ -1,4 +1,4 @@
-"""Drawings of devices under one walk: rank, sticks, errors, joints, centre of mass."""
+"""Drawings of devices under one walk: ranking, stick figures, errors, joints, centre of mass."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from exo_pin.arrays import Array
 from exo_pin.compare import Comparison, Loss, Walk
 from exo_pin.compare.loss import axes
 from exo_pin.kinematics.resting_stance import travel
-from exo_pin.report.document.blocks import Drawing
-from exo_pin.report.draw import palette, panels, skeleton, svg
+from exo_pin.report.draw import palette, skeleton, svg, walk_charts
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.report.draw.chart_axis import ticks
-from exo_pin.report.draw.cycle_place import place
+from exo_pin.report.draw.cycle_axis import cycle_axis
+from exo_pin.report.draw.drawing import Drawing
 
-TOGETHER = "Devices whose curves lie on each other are drawn once, under all their names."
-_SAME = {"mm": 0.05, "deg": 0.05}  # curves nearer than this to each other are drawn as one
+COINCIDENT_NOTE = "Devices whose curves lie on each other are drawn once, under all their names."
+_SAME = {"mm": 0.05, "deg": 0.05}  # curves closer than this are drawn as one
 _SHADOW = "#bcc4cd"
 _MOMENTS = 5  # every second of the ten that `skeleton.moments` finds
 _APART = 0.85  # [m] between two poses of sticks
@@ -62,8 +62,8 @@ def sticks(loss: Loss) -> Drawing:
             points = points @ axes(walk).T
             front = points[_MOMENTS // 2][:, [1, 2]] + [_APART * (_MOMENTS - 0.1), 0.0]
             moments = [p[:, [0, 2]] + [_APART * k, 0.0] for k, p in enumerate(points)]
-            look = (_SHADOW, 5.0) if shadow else (svg.COLOURS[side], 2.0)
-            lines += [(moment, *look) for moment in (*moments, front)]
+            style = (_SHADOW, 5.0) if shadow else (svg.SIDE_COLOURS[side], 2.0)
+            lines += [(moment, *style) for moment in (*moments, front)]
     everything = np.concatenate([points for points, *_ in lines])
     (low, bottom), (high, top) = everything.min(axis=0), everything.max(axis=0)
     scale = (width - 20) / (high - low)
@@ -105,7 +105,8 @@ def joints(compared: Comparison, side: Side) -> tuple[Drawing, ...]:
         moving = [loss for loss in compared.best if f"{side}_{movement}" in loss.motion.robot.joints]
         series = {loss.device.name: np.degrees(loss.motion.gait.q[:, column]) for loss in moving}
         recorded = np.degrees(compared.walk.gait.q[:, column])
-        title = f"{side.capitalize()} {panels.TITLES[movement][0].lower()}{panels.TITLES[movement][1:]}"
+        movement_title = walk_charts.MOVEMENT_TITLES[movement]
+        title = f"{side.capitalize()} {movement_title[0].lower()}{movement_title[1:]}"
         name = f"joint_{side}_{movement}"
         drawings.append(_drawn(compared, side, name, title, series, "deg", recorded=recorded, least=20.0))
     return tuple(drawings)
@@ -142,11 +143,11 @@ def _drawn(
     width: float = 360.0,
 ) -> Drawing:
     """Series of all devices over the cycle of a foot, the recorded one behind them."""
-    at = place(compared.walk.gait, side)
-    looks = palette.looks(loss.device.name for loss in compared.best)
-    shown = {device: at.of(values) for device, values in series.items()}
-    curves = palette.curves(at.x, shown, looks, same=_SAME[unit])
+    axis = cycle_axis(compared.walk.gait, side)
+    styles = palette.line_styles(loss.device.name for loss in compared.best)
+    shown = {device: axis.series(values) for device, values in series.items()}
+    curves = palette.curves(axis.x, shown, styles, same=_SAME[unit])
     if recorded is not None:
-        curves = (Curve(at.x, at.of(recorded), svg.INK, "recorded", width=3.0), *curves)
-    chart = Chart(title=title, x_label=at.label, curves=curves, spans=at.spans, least=least, width=width)
+        curves = (Curve(axis.x, axis.series(recorded), svg.INK, "recorded", width=3.0), *curves)
+    chart = Chart(title=title, x_label=axis.label, curves=curves, spans=axis.spans, least=least, width=width)
     return Drawing(name, title, draw(chart))

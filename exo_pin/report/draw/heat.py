@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart_axis import extent, label, ticks
+from exo_pin.report.draw.drawing import Drawing
 
 _LETTER = 6.1  # mean width of a letter at 11 px
 _LONGEST = 44  # letters of a row's heading
@@ -35,7 +35,7 @@ def heat(
         columns: Headings.
         rows: Heading of a row -> its numbers; NaN is shown as a dash.
         width: Of the picture [px].
-        digits: Decimals.
+        digits: Number of decimals.
         top: Value of the darkest cell; the largest in the table if left out.
     """
     left = _left(rows)
@@ -109,7 +109,7 @@ def _words(column: str) -> list[str]:
 def _cell(x: float, y: float, wide: float, value: float, most: float, digits: int) -> list[str]:
     if np.isnan(value):
         return [svg.text(x + wide / 2, y + 16, "-", text_anchor="middle", fill=svg.GREY)]
-    share = min(abs(value) / most, 1.0) ** 0.7  # a root: small losses are told apart too
+    share = min(abs(value) / most, 1.0) ** 0.7  # a root: small losses differ in shade too
     colour = 255 + share * 0.85 * ((_HIGH if value > 0 else _LOW) - 255)
     fill = "#" + "".join(f"{round(c):02x}" for c in colour)
     ink = "#fff" if colour @ [0.30, 0.59, 0.11] < 140 else svg.INK

@@ -1,4 +1,4 @@
-"""The legend below a chart: marks and words in as many rows as they need."""
+"""The legend below a chart: marks and labels, broken into rows."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from exo_pin.report.draw import svg
 
-ROW = 15.0
-"""Height of a row [px]."""
+ROW_HEIGHT = 15.0
+"""[px]"""
 
 _LETTER = 5.6  # mean width of a letter at 10.5 px
 
@@ -26,7 +26,7 @@ def rows(marks: Mapping[str, str], left: float, top: float, right: float) -> tup
         width = 22 + _LETTER * len(words) + 12
         if x > left and x + width > right:
             row, x = row + 1, left
-        y = top + 10 + ROW * row
+        y = top + 10 + ROW_HEIGHT * row
         parts.append(svg.tag("g", mark, transform=f"translate({svg.number(x)} {svg.number(y - 3.5)})"))
         parts.append(svg.text(x + 21, y, words, font_size=10.5))
         x += width

@@ -1,4 +1,4 @@
-"""Colours of things that are compared: told apart on a screen, and by their dashes on grey paper too."""
+"""Line styles of series that are compared: colours for a screen, dashes for grey paper as well."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.report.draw.chart import Curve
 
-COLOURS = (
+_COLOURS = (
     "#2975c7",
     "#d9822b",
     "#2e8b57",
@@ -24,31 +24,34 @@ COLOURS = (
 _DASHES = (None, "7 3", "2 3", "8 3 2 3")
 
 
-class Look(NamedTuple):
+class LineStyle(NamedTuple):
     """Colour and dash of a line."""
 
     colour: str
     dash: str | None
 
 
-def looks(names: Iterable[str]) -> dict[str, Look]:
-    """A look for each name, the same for the same names in the same order."""
-    return {name: Look(COLOURS[k % len(COLOURS)], _DASHES[k % len(_DASHES)]) for k, name in enumerate(names)}
+def line_styles(names: Iterable[str]) -> dict[str, LineStyle]:
+    """A style for each name, the same for the same names in the same order."""
+    return {
+        name: LineStyle(_COLOURS[k % len(_COLOURS)], _DASHES[k % len(_DASHES)])
+        for k, name in enumerate(names)
+    }
 
 
 def curves(
-    x: Array, series: Mapping[str, Array], look: Mapping[str, Look], *, same: float
+    x: Array, series: Mapping[str, Array], styles: Mapping[str, LineStyle], *, same: float
 ) -> tuple[Curve, ...]:
-    """A curve for each series `(n,)` over `x` `(n,)`; those that lie on each other are one, under all names.
+    """A curve for each series; coincident series make one curve, under all their names.
 
     Args:
-        x: Where the values are.
-        series: Values by name.
-        look: By name.
+        x: `(n,)` where the values are.
+        series: `(n,)` values by name.
+        styles: By name.
         same: Largest difference of series that count as one.
     """
     return tuple(
-        Curve(x, series[names[0]], look[names[0]].colour, " = ".join(names), look[names[0]].dash)
+        Curve(x, series[names[0]], styles[names[0]].colour, " = ".join(names), styles[names[0]].dash)
         for names in coincident(series, same)
     )
 

@@ -1,4 +1,4 @@
-"""The Pareto figure of the joint study as SVG: foot error against number of motors."""
+"""The Pareto front of the choices of joints as SVG: sole error against number of motors."""
 
 from __future__ import annotations
 

@@ -6,48 +6,27 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exo_pin.anatomy import JOINTS, SIDES
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
-from exo_pin.kinematics import jacobian, poses, spatiotemporal
-from exo_pin.report.document.blocks import Drawing
+from exo_pin.kinematics import poses, spatiotemporal
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.robot import Robot
 
-AXES = {"x": "#d9822b", "y": "#2e8b57", "z": "#6a4fb3"}
+_AXIS_COLOURS = {"x": "#d9822b", "y": "#2e8b57", "z": "#6a4fb3"}
 _AZIMUTH, _ELEVATION = np.radians(38.0), np.radians(16.0)
 _POSES = 10
 
 
-def joint_frames(robot: Robot) -> list[tuple[str, Array, Array]]:
-    """Origin (3,) [m] and axis (3,) in the world, by joint, at q = 0; the body first, without axis."""
-    q = robot.neutral
-    T = poses(robot, q, ("pelvis", *JOINTS))
-    found = [("body", T[0, :3, 3], np.full(3, np.nan))]
-    for k, joint in enumerate(JOINTS):
-        axis = np.full(3, np.nan)
-        if joint in robot.joints:
-            axis = jacobian(robot, q, joint)[
-                3:, robot.model.nv - len(robot.joints) + robot.joints.index(joint)
-            ]
-        found.append((joint, T[k + 1, :3, 3], axis))
-    return found
-
-
-def frames_parallel(robot: Robot) -> float:
-    """Largest difference of any local frame's rotation matrix from the world's, at q = 0."""
-    T = poses(robot, robot.neutral, ("pelvis", *JOINTS))
-    return float(np.abs(T[:, :3, :3] - np.eye(3)).max())
-
-
 def frames_drawing(robot: Robot) -> Drawing:
     """The 13 local frames and the world's at q = 0, seen from the front left."""
-    see = _camera(robot, 430, 640)
-    parts = [*_legs(robot, see, thin=True)]
+    project = _camera(robot, 430, 640)
+    parts = [*_legs(robot, project, thin=True)]
     words = {"hip": "3 hip frames", "knee": "knee frame", "ankle": "2 ankle frames"}
     for side in SIDES:
         for name, movement in (
@@ -57,20 +36,20 @@ def frames_drawing(robot: Robot) -> Drawing:
         ):
             T = poses(robot, robot.neutral, (f"{side}_{movement}",))[0]
             shift, anchor = (16, "start") if side == "left" else (-16, "end")
-            parts += _triad(see, T, 0.085)
-            parts.append(_label(see, T[:3, 3], f"{side}: {words[name]}", shift, -10, anchor))
+            parts += _triad(project, T, 0.085)
+            parts.append(_label(project, T[:3, 3], f"{side}: {words[name]}", shift, -10, anchor))
     pelvis = poses(robot, robot.neutral, ("pelvis",))[0]
-    parts += [*_triad(see, pelvis, 0.11), _label(see, pelvis[:3, 3], "body", 8, -62, "start")]
-    parts += [*_triad(see, np.eye(4), 0.16), _label(see, np.zeros(3), "world W", -4, 36, "middle")]
+    parts += [*_triad(project, pelvis, 0.11), _label(project, pelvis[:3, 3], "body", 8, -62, "start")]
+    parts += [*_triad(project, np.eye(4), 0.16), _label(project, np.zeros(3), "world W", -4, 36, "middle")]
     title = "Coordinate frames at q = 0"
     return Drawing("fig1_frames", title, svg.drawing(430, 640, parts, title))
 
 
 def model_drawing(robot: Robot) -> Drawing:
     """The exoskeleton as a line drawing, for machines without a browser to render it."""
-    see = _camera(robot, 520, 640)
+    project = _camera(robot, 520, 640)
     title = "The exoskeleton, line drawing"
-    return Drawing("fig3_model", title, svg.drawing(520, 640, _legs(robot, see, thin=False), title))
+    return Drawing("fig3_model", title, svg.drawing(520, 640, _legs(robot, project, thin=False), title))
 
 
 def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
@@ -84,7 +63,7 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
         for k, points in enumerate(chains[side]):
             x, z = 100 * (points[:, 0] + advance[k]), 100 * (points[:, 2] - lowest[k])
             curves.append(Curve(x[:2], z[:2], "#8a95a1", "trunk", width=2.2))
-            curves.append(Curve(x[1:], z[1:], svg.COLOURS[side], f"{side} leg", width=2.2))
+            curves.append(Curve(x[1:], z[1:], svg.SIDE_COLOURS[side], f"{side} leg", width=2.2))
     everything = np.concatenate([np.stack([np.asarray(c.x), np.asarray(c.y)], axis=1) for c in curves])
     (low, _), (high, top) = everything.min(axis=0), everything.max(axis=0)
     chart = Chart(
@@ -129,7 +108,13 @@ def _advance(robot: Robot, gait: Gait, rows: Index) -> tuple[Array, str]:
 
 
 def chain(robot: Robot, gait: Gait, side: Side) -> Array:
-    """Trunk top, hip, knee, ankle, heel, ball, ankle `(n, 7, 3)` in the world [m]."""
+    """Trunk top, hip, knee, ankle, heel, ball, ankle `(n, 7, 3)` in the world [m].
+
+    Args:
+        robot: The device on a body.
+        gait: The walk, n samples.
+        side: Which leg.
+    """
     names = [f"{side}_hip_flexion", f"{side}_knee_flexion", f"{side}_ankle_inversion"]
     names += [f"{side}_{part}_{edge}" for part in ("heel", "ball") for edge in ("medial", "lateral")]
     base = robot.base_of(gait)
@@ -140,7 +125,7 @@ def chain(robot: Robot, gait: Gait, side: Side) -> Array:
     return np.stack([trunk, p[:, 1], p[:, 2], p[:, 3], heel, ball, p[:, 3]], axis=1)
 
 
-class _View:
+class _Camera:
     """From metres to pixels, seen from the front left and a little from above."""
 
     def __init__(self, centre: Array, scale: float, width: float, height: float) -> None:
@@ -154,40 +139,40 @@ class _View:
         return np.asarray(self.middle + self.scale * np.stack([across, -up], axis=-1))
 
 
-def _camera(robot: Robot, width: float, height: float) -> _View:
+def _camera(robot: Robot, width: float, height: float) -> _Camera:
     tall = float(robot.placement[2, 3]) + 0.2
-    return _View(np.array([0.0, 0.0, tall / 2 - 0.02]), (height - 70) / (tall + 0.05), width, height)
+    return _Camera(np.array([0.0, 0.0, tall / 2 - 0.02]), (height - 70) / (tall + 0.05), width, height)
 
 
-def _legs(robot: Robot, see: _View, *, thin: bool) -> Iterator[str]:
+def _legs(robot: Robot, project: _Camera, *, thin: bool) -> Iterator[str]:
     """Ring, bars, joints and soles at q = 0."""
     T = poses(robot, robot.neutral, ("pelvis",))[0]
     half = robot.body.waist_width / 2 if robot.body is not None else 0.2
     angle = np.linspace(0, 2 * np.pi, 60)
     ring = T[:3, 3] + np.stack([0.75 * half * np.cos(angle), half * np.sin(angle), 0 * angle + 0.06], axis=1)
-    yield svg.line(see(ring), "#8a95a1", stroke_width=3 if thin else 9)
+    yield svg.line(project(ring), "#8a95a1", stroke_width=3 if thin else 9)
     width = 3.0 if thin else 13.0
     for side in SIDES:
         names = [f"{side}_{m}" for m in ("hip_flexion", "knee_flexion", "ankle_inversion")]
         corners = [f"{side}_{c}" for c in ("heel_medial", "heel_lateral", "ball_lateral", "ball_medial")]
         p = poses(robot, robot.neutral, (*names, *corners))[:, :3, 3]
-        colour, opacity = svg.COLOURS[side], 0.55 if thin else 1.0
+        colour, opacity = svg.SIDE_COLOURS[side], 0.55 if thin else 1.0
         yield svg.tag(
-            "path", d=svg.path(see(p[3:]), closed=True), fill=colour, fill_opacity=0.25, stroke=colour
+            "path", d=svg.path(project(p[3:]), closed=True), fill=colour, fill_opacity=0.25, stroke=colour
         )
-        yield svg.line(see(p[:3]), colour, stroke_width=width, opacity=opacity, stroke_linecap="round")
-        yield svg.line(see(np.stack([T[:3, 3], p[0]])), "#8a95a1", stroke_width=width / 2)
-        for point in see(p[:3]):
+        yield svg.line(project(p[:3]), colour, stroke_width=width, opacity=opacity, stroke_linecap="round")
+        yield svg.line(project(np.stack([T[:3, 3], p[0]])), "#8a95a1", stroke_width=width / 2)
+        for point in project(p[:3]):
             radius = 4.0 if thin else 11.0
             yield svg.tag(
                 "circle", cx=point[0], cy=point[1], r=radius, fill="#fff", stroke=colour, stroke_width=2
             )
 
 
-def _triad(see: _View, T: Array, length: float) -> Iterator[str]:
-    for k, (name, colour) in enumerate(AXES.items()):
+def _triad(project: _Camera, T: Array, length: float) -> Iterator[str]:
+    for k, (name, colour) in enumerate(_AXIS_COLOURS.items()):
         tip = T[:3, 3] + length * T[:3, k]
-        a, b = see(np.stack([T[:3, 3], tip]))
+        a, b = project(np.stack([T[:3, 3], tip]))
         yield svg.line([a, b], colour, stroke_width=2.2)
         along = (b - a) / max(float(np.linalg.norm(b - a)), 1e-9)
         across = np.array([-along[1], along[0]])
@@ -197,8 +182,8 @@ def _triad(see: _View, T: Array, length: float) -> Iterator[str]:
         yield svg.text(x, y + 3.5, name, fill=colour, text_anchor="middle", font_size=11)
 
 
-def _label(see: _View, p: Array, words: str, dx: float, dy: float, anchor: str) -> str:
-    x, y = see(p) + np.array([dx, dy])
+def _label(project: _Camera, p: Array, words: str, dx: float, dy: float, anchor: str) -> str:
+    x, y = project(p) + np.array([dx, dy])
     return svg.text(
         x, y, words, text_anchor=anchor, font_size=12, paint_order="stroke", stroke="#fff", stroke_width=3
     )

@@ -1,4 +1,4 @@
-"""SVG as text: escaped content, rounded numbers; equal input gives equal bytes."""
+"""SVG elements as text: escaped content, rounded numbers, the same bytes for the same input."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-COLOURS = {"left": "#d13d4a", "right": "#2975c7"}
+SIDE_COLOURS = {"left": "#d13d4a", "right": "#2975c7"}
 """One colour per side, as in the viewer."""
 
 INK, GREY, FAINT = "#1d2733", "#5d6875", "#d9dee4"
-FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
+_FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
 
 
 def number(value: float) -> str:
@@ -38,7 +38,14 @@ def tag(name: str, content: str = "", /, **attributes: object) -> str:
 
 
 def text(x: float, y: float, words: str, /, **attributes: object) -> str:
-    """Words at a point; any characters."""
+    """Words at a point.
+
+    Args:
+        x: From the left [px].
+        y: Of the base line, from the top [px].
+        words: Any characters; they are escaped.
+        attributes: Of the element, over the defaults `font_size` 11 and `fill` `INK`.
+    """
     given: dict[str, object] = {"font_size": 11, "fill": INK, **attributes}
     return tag("text", html.escape(words), x=x, y=y, **given)
 
@@ -56,17 +63,24 @@ def path(points: ArrayLike, *, closed: bool = False) -> str:
 
 
 def line(points: ArrayLike, colour: str, **attributes: object) -> str:
-    """A line through points `(n, 2)`."""
+    """A line through points `(n, 2)` [px]."""
     given: dict[str, object] = {"stroke_width": 1.6, "stroke_linejoin": "round", **attributes}
     return tag("path", d=path(points), fill="none", stroke=colour, **given)
 
 
 def drawing(width: float, height: float, parts: Iterable[str], title: str) -> str:
-    """A whole picture that fills the width it is given; the title is read aloud by screen readers."""
+    """A whole picture that fills the width it is given.
+
+    Args:
+        width: Of the picture [px].
+        height: Of the picture [px].
+        parts: Its elements, as markup.
+        title: For screen readers; any characters.
+    """
     body = tag("title", html.escape(title)) + "".join(parts)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {number(width)} {number(height)}" role="img" '
-        f'font-family="{html.escape(FONT)}" fill="{INK}">{body}</svg>'
+        f'font-family="{html.escape(_FONT)}" fill="{INK}">{body}</svg>'
     )
 
 

@@ -1,1 +1,1 @@
-"""Whole pages: one walk, a comparison of devices, a study, the paper's figures."""
+"""Whole pages: one walk, the paper's figures, a comparison of devices, a study; each assembles sections."""

@@ -1,17 +1,19 @@
-"""A comparison of devices as a page: ranked, with the motion behind every number."""
+"""A comparison of devices: ranked, with the motion that each number comes from."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from exo_pin.anatomy.names import PelvisMotion
 from exo_pin.compare import Comparison, JointChoices, comparison_table
-from exo_pin.report.document.blocks import Document, Drawing, Figure, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Document, Figure, Paragraph, Section, Table, Tiles
 from exo_pin.report.draw import device_drawings as drawn
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.draw.pareto import pareto_svg
 from exo_pin.report.sections import losses
 from exo_pin.version import __version__
 
-_PELVIS = {
+_PELVIS: dict[PelvisMotion, str] = {
     "recorded": "moves as recorded under every device: the legs alone are compared",
     "device": "as each device holds it: upright at its mean place, moving along the device's slides only",
 }
@@ -19,7 +21,7 @@ _COLUMNS = (
     "Sole: distance of the soles' corners from the recorded ones. Foot: of the foot frame, under the ankle. "
     "Copy: the sole's error if the device merely copies its own joints and drops the others. Lost: recorded "
     "minus the device's; negative: a wider step, or a foot lifted higher. Knee change: largest difference "
-    "from the angle asked for. Com: path of the centre of mass."
+    "from the required angle. Com: path of the centre of mass."
 )
 
 
@@ -48,7 +50,7 @@ def comparison(
         losses.feet(compared),
         losses.steps(compared),
         losses.joints(compared),
-        losses.mass(compared),
+        losses.centre_of_mass(compared),
         *([losses.speeds(speeds)] if speeds else []),
         *([_worth(worth)] if worth is not None else []),
         _conditions(compared, choices or {}),
@@ -74,7 +76,7 @@ def _summary(compared: Comparison) -> Section:
     )
     ranked = Table(comparison_table.LOSS_COLUMNS, comparison_table.rows(compared), "Least loss first")
     bars = Figure((drawn.ranking(compared),), "Bar: the best motion. Stroke: the plain copy.", columns=1)
-    return Section("Summary", (Tiles(tiles), Words(words), ranked, Words(_COLUMNS, "note"), bars))
+    return Section("Summary", (Tiles(tiles), Paragraph(words), ranked, Paragraph(_COLUMNS, "note"), bars))
 
 
 def _sticks(compared: Comparison) -> Section:
@@ -108,13 +110,13 @@ def _worth(worth: JointChoices) -> Section:
 
 
 def _conditions(compared: Comparison, choices: Mapping[str, str]) -> Section:
-    body, granted = compared.walk.robot.body, compared.conditions
+    body, conditions = compared.walk.robot.body, compared.conditions
     rows = [
         ["walk", compared.walk.gait.source or "source not stated"],
-        ["pelvis", _PELVIS[granted.pelvis]],
+        ["pelvis", _PELVIS[conditions.pelvis]],
         [
             "passive joints",
-            {"held": "held at zero", "released": "move as it suits the feet"}[granted.passive],
+            {"held": "held at zero", "released": "move as it suits the feet"}[conditions.passive],
         ],
         ["joint limits and speeds", "those that device and body both allow; the device's"],
         *([] if body is None else [["body", f"{body.stature:.3f} m, {body.mass:.1f} kg, {body.sex}"]]),
@@ -125,12 +127,12 @@ def _conditions(compared: Comparison, choices: Mapping[str, str]) -> Section:
         [loss.device.name, loss.device.title or loss.device.name, loss.device.source]
         for loss in compared.best
     ]
-    note = "The comparison is kinematic: what a locked joint does to forces is not asked."
+    note = "The comparison is kinematic: it does not say what a locked joint does to forces."
     return Section(
         "Conditions",
         (
             Table(("condition", ""), rows, prose=True),
             Table(("device", "what it is", "source"), about, prose=True),
-            Words(note, "note"),
+            Paragraph(note, "note"),
         ),
     )

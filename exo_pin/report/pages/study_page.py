@@ -1,4 +1,4 @@
-"""A study as a page: what devices lose against stature, speed and phase, and of every recording."""
+"""A study of devices: their losses against stature, speed and phase, and for every recording."""
 
 from __future__ import annotations
 
@@ -7,19 +7,23 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 import numpy as np
 
 from exo_pin.anatomy.human import DEFAULT_STATURE
+from exo_pin.anatomy.names import PelvisMotion
 from exo_pin.arrays import Array
 from exo_pin.gait import SPEEDS
 from exo_pin.gait.phases import PHASES
-from exo_pin.report.document.blocks import Block, Document, Drawing, Figure, Section, Table, Tiles, Words
+from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Section, Table, Tiles
 from exo_pin.report.draw import palette
 from exo_pin.report.draw.chart import Chart, draw
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.draw.heat import heat, strips
 from exo_pin.study import Row, summary
-from exo_pin.study.study_table import phase_column
 
-_SAME = 0.01  # [mm] curves nearer than this to each other are drawn as one
+_SAME = 0.01  # [mm] curves closer than this are drawn as one
 _MOST = 40  # recordings in a table
-_PELVIS = {"recorded": "the pelvis moves as recorded", "device": "the pelvis as the device holds it"}
+_PELVIS: dict[PelvisMotion, str] = {
+    "recorded": "the pelvis moves as recorded",
+    "device": "the pelvis as the device holds it",
+}
 
 
 def study(rows: Sequence[Row], *, failures: Mapping[str, str] | None = None, when: str = "") -> Document:
@@ -66,7 +70,7 @@ def _summary(rows: Sequence[Row], best: Sequence[Row], failures: Mapping[str, st
     table = Table(
         *summary(rows), "Sole error of the best motion, rms over a walk [mm]; mean and worst of all walks"
     )
-    return Section("Summary", (Tiles(tiles), Words(words), table))
+    return Section("Summary", (Tiles(tiles), Paragraph(words), table))
 
 
 def _by_stature(rows: Sequence[Row]) -> Section:
@@ -93,7 +97,7 @@ def _by_speed(rows: Sequence[Row]) -> Section:
         if len(speeds) > 1:
             x, series = _series(mine, lambda row: 120 / row.duration_s)
             charts.append(_chart(f"speed_{pelvis}", title, "cadence [steps/min]", x, series, rows))
-        cells = _cells(mine, speeds, "sole_rms_mm")
+        cells = _cells(mine, speeds, lambda row: row.sole_rms_mm)
         tables.append(heat(f"speeds_{pelvis}", title, [s.replace("_", " ") for s in speeds], cells))
     blocks: list[Block] = [Figure(tuple(drawings), columns=2) for drawings in (charts, tables) if drawings]
     return Section("Against speed", tuple(blocks))
@@ -103,11 +107,11 @@ def _by_phase(rows: Sequence[Row]) -> Section:
     stature, speed = _usual_stature(rows), _usual_speed(rows)
     drawings = []
     for pelvis, mine in _pelvises(r for r in rows if (r.stature_m, r.gait) == (stature, speed)):
-        found = {row.device: _phases(row) for row in mine}
+        found = {row.device: list(row.sole_rms_by_phase.values()) for row in mine}
         cells = {name: found[name] for name in _devices(mine)}
         title = f"Sole error, rms [mm]: {speed}, {stature:.2f} m, {_PELVIS[pelvis]}"
         drawings.append(heat(f"phases_{pelvis}", title, [p.replace("pre-", "pre- ") for p in PHASES], cells))
-    caption = "Phases of the foot's own cycle (Perry 1992), told by its heel strike and toe-off."
+    caption = "Phases of the foot's own cycle (Perry 1992), from its heel strikes and toe-offs."
     return Section("By phase of the cycle", (Figure(tuple(drawings), caption, columns=2),))
 
 
@@ -115,20 +119,21 @@ def _feet(rows: Sequence[Row]) -> Section:
     stature = _usual_stature(rows)
     speeds = [speed for speed in SPEEDS if any(row.gait == speed for row in rows)]
     figures = []
-    for what, words in (
-        ("step_width_lost_mm", "Step width lost [mm]"),
-        ("clearance_lost_mm", "Clearance lost [mm]"),
-    ):
+    measures: tuple[tuple[str, str, Callable[[Row], float]], ...] = (
+        ("step_width_lost_mm", "Step width lost [mm]", lambda row: row.step_width_lost_mm),
+        ("clearance_lost_mm", "Clearance lost [mm]", lambda row: row.clearance_lost_mm),
+    )
+    for name, words, measure in measures:
         drawings = []
         for pelvis, mine in _pelvises(row for row in rows if row.stature_m == stature):
-            cells = _cells(mine, speeds, what)
+            cells = _cells(mine, speeds, measure)
             title = f"{words}: {stature:.2f} m, {_PELVIS[pelvis]}"
-            drawings.append(heat(f"{what}_{pelvis}", title, [s.replace("_", " ") for s in speeds], cells))
+            drawings.append(heat(f"{name}_{pelvis}", title, [s.replace("_", " ") for s in speeds], cells))
         figures.append(Figure(tuple(drawings), columns=2))
     note = (
         "Recorded minus the device's: blue cells are negative, a wider step or a foot that is lifted higher."
     )
-    return Section("Step width and clearance", (*figures, Words(note, "note")))
+    return Section("Step width and clearance", (*figures, Paragraph(note, "note")))
 
 
 def _recordings(rows: Sequence[Row]) -> Section:
@@ -154,25 +159,27 @@ def _recordings(rows: Sequence[Row]) -> Section:
         blocks.append(
             Figure((heat(f"recordings_{pelvis}", title, devices, shown, width=900),), more, columns=1)
         )
-    doubtful = list(dict.fromkeys((row.gait, row.doubts) for row in rows if row.doubts))
-    if doubtful:
-        blocks.append(Table(("recording", "reasons to doubt how it was read"), doubtful, prose=True))
+    warnings = list(dict.fromkeys((row.gait, row.doubts) for row in rows if row.doubts))
+    if warnings:
+        blocks.append(Table(("recording", "reasons to doubt how it was read"), warnings, prose=True))
     return Section("Recordings", tuple(blocks))
 
 
 def _conditions(rows: Sequence[Row]) -> Section:
-    def all_of(name: str) -> str:
-        return ", ".join(map(str, dict.fromkeys(getattr(row, name) for row in rows)))
+    def listed(value: Callable[[Row], str]) -> str:
+        return ", ".join(dict.fromkeys(map(value, rows)))
+
+    pelvises = {row.pelvis for row in rows}
 
     facts = [
         [
             "pelvis",
-            "; ".join(f"{name}: {words}" for name, words in _PELVIS.items() if name in all_of("pelvis")),
+            "; ".join(f"{name}: {words}" for name, words in _PELVIS.items() if name in pelvises),
         ],
-        ["passive joints", all_of("passive")],
-        ["sex (segment masses)", all_of("sex")],
+        ["passive joints", listed(lambda row: row.passive)],
+        ["sex (segment masses)", listed(lambda row: row.sex)],
         ["mass", f"{min(r.mass_kg for r in rows):.1f} .. {max(r.mass_kg for r in rows):.1f} kg"],
-        ["made with", f"exo_pin {all_of('version')}"],
+        ["made with", f"exo_pin {listed(lambda row: row.version)}"],
     ]
     sources = list(dict.fromkeys((row.gait, row.source) for row in rows))[:_MOST]
     return Section(
@@ -180,7 +187,7 @@ def _conditions(rows: Sequence[Row]) -> Section:
         (
             Table(("condition", ""), facts, prose=True),
             Table(("walk", "source"), sources, prose=True),
-            Words("The errors are of the feet's pose and of nothing else: forces are not asked.", "note"),
+            Paragraph("The errors are those of the feet's pose alone; forces are not considered.", "note"),
         ),
     )
 
@@ -188,8 +195,9 @@ def _conditions(rows: Sequence[Row]) -> Section:
 def _chart(
     name: str, title: str, x_label: str, x: Array, series: dict[str, Array], rows: Sequence[Row]
 ) -> Drawing:
-    looks = palette.looks(dict.fromkeys(row.device for row in rows))  # a device looks the same in all charts
-    curves = palette.curves(x, series, looks, same=_SAME)
+    # by all rows, so that a device has the same style in all charts
+    styles = palette.line_styles(dict.fromkeys(row.device for row in rows))
+    curves = palette.curves(x, series, styles, same=_SAME)
     top = max(float(np.nanmax(values)) for values in series.values())
     chart = Chart(
         title=title, x_label=x_label, curves=curves, y_range=(0, 1.08 * max(top, 1.0)), width=520, height=270
@@ -205,8 +213,8 @@ def _series(rows: Sequence[Row], place: Callable[[Row], float]) -> tuple[Array, 
     return np.array(x), series
 
 
-def _pelvises(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
-    """The rows of each reading of the pelvis."""
+def _pelvises(rows: Iterable[Row]) -> list[tuple[PelvisMotion, list[Row]]]:
+    """The rows by who moves the pelvis."""
     found = list(rows)
     return [(name, mine) for name in _PELVIS if (mine := [row for row in found if row.pelvis == name])]
 
@@ -218,14 +226,12 @@ def _devices(rows: Sequence[Row]) -> list[str]:
     return sorted(names, key=lambda name: (round(float(means[name]), 6), name))
 
 
-def _cells(rows: Sequence[Row], speeds: Sequence[str], what: str) -> dict[str, list[float]]:
-    """A measure by device and speed; NaN where the study has none."""
-    found = {(row.device, row.gait): getattr(row, what) for row in rows}
+def _cells(
+    rows: Sequence[Row], speeds: Sequence[str], measure: Callable[[Row], float]
+) -> dict[str, list[float]]:
+    """A measure by device and speed; NaN for a missing row."""
+    found = {(row.device, row.gait): measure(row) for row in rows}
     return {name: [found.get((name, speed), np.nan) for speed in speeds] for name in _devices(rows)}
-
-
-def _phases(row: Row) -> list[float]:
-    return [getattr(row, phase_column(phase)) for phase in PHASES]
 
 
 def _usual_stature(rows: Sequence[Row]) -> float:

@@ -1,4 +1,4 @@
-"""One walk on one device, for an engineer or a clinician: every number with its unit, every choice stated."""
+"""One walk on one device for an engineer or a clinician, with the unit of each number and every choice."""
 
 from __future__ import annotations
 
@@ -8,20 +8,21 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from exo_pin import crosscheck
+from exo_pin.anatomy.names import Speed
 from exo_pin.gait import Gait, Torques
 from exo_pin.gait.heading import heading, turned
-from exo_pin.report.document.blocks import Document, Player, Section, Tiles, Words
+from exo_pin.kinematics import joint_rates
+from exo_pin.report.document.blocks import Document, Paragraph, Player, Section, Tiles
 from exo_pin.report.sections import actuators, agreement, fact_tables, foot_paths
 from exo_pin.report.sections.angles import curves
-from exo_pin.report.sections.joint_rates import motion
-from exo_pin.report.sections.mass_path import mass
+from exo_pin.report.sections.centre_of_mass_path import centre_of_mass
 from exo_pin.report.sections.ranges import ranges
 from exo_pin.robot import Robot
 
 
 @dataclass(frozen=True, kw_only=True)
-class About:
-    """What the report says about its making; any characters.
+class ReportInfo:
+    """What the report states about itself; any characters are accepted.
 
     Attributes:
         title: Heading.
@@ -42,10 +43,10 @@ def walk(
     robot: Robot,
     gait: Gait,
     *,
-    about: About | None = None,
+    info: ReportInfo | None = None,
     player: str = "",
     still: bytes = b"",
-    normal: str | None = "free",
+    normal: Speed | None = "free",
     cutoff: float | None = 6.0,
     torques: Torques | None = None,
 ) -> Document:
@@ -53,46 +54,46 @@ def walk(
 
     Args:
         robot: The device on a body.
-        gait: The walk, with its events (without them there is no cycle and no contact).
-        about: Who, what, when.
+        gait: The walk, with its events (without them cycle and contact are unknown).
+        info: Title, person, walk and time of the report.
         player: A whole HTML page to embed; empty: none.
-        still: A PNG that takes the player's place on paper.
+        still: A PNG that replaces the player on paper.
         normal: Speed of the normative band behind the joint curves; None: no band.
         cutoff: Low-pass of velocities and accelerations of recordings [Hz]; None: no filter. Periodic walks
             are differentiated by their Fourier series and never filtered.
-        torques: Joint torques on the walk's clock, if there are some.
+        torques: Joint torques at the walk's times, if known.
 
     Raises:
         DescriptionError: The robot was not made for a body.
         GaitError: The torques belong to another time.
     """
-    about = about or About()
+    info = info or ReportInfo()
     gait, forward = _ahead(gait)
     verdict = crosscheck.check(robot, gait)
-    rates = motion(robot, gait, cutoff)
+    rates = joint_rates(robot, gait, cutoff=cutoff)
     sections = [
-        _summary(gait, about, verdict),
+        _summary(gait, info, verdict),
         fact_tables.body(robot),
         fact_tables.device(robot),
-        *([_played(player, about.title, still)] if player else []),
+        *([_played(player, info.title, still)] if player else []),
         curves(robot, gait, normal),
         ranges(robot, gait),
         actuators.rates(robot, gait, rates),
         *([actuators.torques(robot, gait, torques)] if torques else []),
         foot_paths.paths(robot, gait, forward),
-        mass(robot, gait),
+        centre_of_mass(robot, gait),
         foot_paths.contact(gait),
         fact_tables.numbers(robot, gait),
         agreement.inverse(gait, verdict),
         agreement.agreement(verdict),
-        fact_tables.choices(robot, gait, {"forward": forward, **about.choices}, rates.how, normal),
+        fact_tables.choices(robot, gait, {"forward": forward, **info.choices}, rates.how, normal),
     ]
-    under = [f"{name}: {words}" for name, words in (("walk", about.what), ("who", about.who)) if words]
-    return Document(about.title, "; ".join([*under, *([about.when] if about.when else [])]), tuple(sections))
+    under = [f"{name}: {words}" for name, words in (("walk", info.what), ("who", info.who)) if words]
+    return Document(info.title, "; ".join([*under, *([info.when] if info.when else [])]), tuple(sections))
 
 
 def _ahead(gait: Gait) -> tuple[Gait, str]:
-    """The walk turned so that it goes along x, and what forward is."""
+    """The walk turned so that it goes along x, and what forward means, in words."""
     angle = heading(gait)
     if angle is None:
         return gait, "the walk's own x axis"
@@ -100,23 +101,23 @@ def _ahead(gait: Gait) -> tuple[Gait, str]:
     return turned(gait, -angle), how
 
 
-def _summary(gait: Gait, about: About, verdict: crosscheck.Check) -> Section:
+def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check) -> Section:
     track = verdict.recovery.track
     apart = max(verdict.fk.values())
     outside = verdict.joints_outside
     tiles = (
         ("verdict of all checks", "all is well" if verdict.ok else "no: see below", verdict.ok),
         ("joints outside their limits", str(len(outside)), not outside),
-        ("frames whose feet were reached", f"{int(track.converged.sum())} of {len(track.q)}", verdict.ik_ok),
+        ("frames whose feet were reached", f"{int(track.converged.sum())} of {len(track)}", verdict.ik_ok),
         ("largest disagreement of four models [m, rotation entries]", f"{apart:.0e}", verdict.fk_ok),
         ("length of the walk", f"{gait.duration:.3f} s", None),
         ("samples", str(len(gait)), None),
     )
-    words = f"{about.what or 'The walk'}: {gait.source or 'source not stated'}."
+    words = f"{info.what or 'The walk'}: {gait.source or 'source not stated'}."
     kind = "One cycle that repeats." if gait.periodic else "A recording that does not repeat."
-    return Section("Summary", (Tiles(tiles), Words(f"{words} {kind}")))
+    return Section("Summary", (Tiles(tiles), Paragraph(f"{words} {kind}")))
 
 
 def _played(player: str, title: str, still: bytes) -> Section:
     words = "Drag to turn, space to play; it works without a network."
-    return Section("The walk", (Player(player, f"Player: {title}", still), Words(words, "note screen")))
+    return Section("The walk", (Player(player, f"Player: {title}", still), Paragraph(words, "note screen")))

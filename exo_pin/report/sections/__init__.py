@@ -1,1 +1,1 @@
-"""Sections of a report: each turns results into words, tables and figures."""
+"""Sections of a report: each turns results of other rooms into paragraphs, tables and figures."""

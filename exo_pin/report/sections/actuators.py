@@ -10,9 +10,9 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.demand import ACCELERATION_LIMIT, PeakDemand, peak_demands
 from exo_pin.gait import Gait, Torques
-from exo_pin.report.document.blocks import Block, Figure, Section, Table, Words
-from exo_pin.report.draw import panels
-from exo_pin.report.sections.joint_rates import JointRates
+from exo_pin.kinematics import JointRates
+from exo_pin.report.document.blocks import Block, Figure, Paragraph, Section, Table
+from exo_pin.report.draw import walk_charts
 from exo_pin.robot import Robot
 
 
@@ -49,17 +49,17 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
     speed_limits, acceleration_limits = _limits(speeds), _limits(accelerations)
     blocks: tuple[Block, ...] = (
         Figure(
-            panels.by_movement(
+            walk_charts.by_movement(
                 gait, found.dq, names, "velocity", "rad/s", limits=speed_limits, limit="actuator"
             )
         ),
         Figure(
-            panels.by_movement(
+            walk_charts.by_movement(
                 gait, found.ddq, names, "acceleration", "rad/s²", limits=acceleration_limits, limit="limit"
             )
         ),
         Table(columns, rows, "Peak rates against the actuators"),
-        Words(note, "note"),
+        Paragraph(note, "note"),
     )
     return Section("Velocities and accelerations", blocks)
 
@@ -99,11 +99,11 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
         "have torques, linear between those of the file. Positive drives the joint the way its name says "
         "(muscles' or motors' torque). Per kg of the person. Used: by an actuator that does it alone."
     )
-    charts = panels.by_movement(
+    charts = walk_charts.by_movement(
         gait, tau, names, "torque", "N m", limits=effort, limit="actuator", least=10.0
     )
     table = Table(columns, rows, "Torques against the actuators")
-    return Section("Torques", (Figure(charts), table, Words(note, "note")))
+    return Section("Torques", (Figure(charts), table, Paragraph(note, "note")))
 
 
 def _limits(demands: Mapping[str, PeakDemand]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Sections of a report that say how far to trust it: inverse kinematics' residuals, cross-checks."""
+"""Sections on how far to trust a report: residuals of inverse kinematics, cross-checks."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.crosscheck import BENT_KNEE, FK_TOLERANCE, IK_TOLERANCE, Check
 from exo_pin.gait import Gait
-from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
+from exo_pin.report.document.blocks import Figure, Paragraph, Section, Table
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
+from exo_pin.report.draw.drawing import Drawing
 
 _WITNESSES = {
     "recursion": "the paper's recursion",
@@ -19,38 +20,35 @@ _WITNESSES = {
 
 
 def inverse(gait: Gait, verdict: Check) -> Section:
-    """The round trip: the walk's feet, back to angles."""
-    recovery, facts = verdict.recovery, verdict.facts()["ik"]
-    track = recovery.track
-    used = sorted(set(track.answered_by))
-    inside = int(facts["frames_within_limits"])
+    """The round trip from the walk's feet back to its angles."""
+    found, track = verdict.recovery, verdict.recovery.track
     rows = [
-        ["frames", str(facts["frames"]), ""],
-        ["frames with all angles within the limits", str(inside), ""],
-        ["frames whose feet were reached", str(facts["converged"]), ""],
-        ["largest position error, within limits", f"{facts['max_position_error_m']:.1e}", "m"],
-        ["largest rotation error, within limits", f"{facts['max_rotation_error_rad']:.1e}", "rad"],
+        ["frames", str(len(track)), ""],
+        ["frames with all angles within the limits", str(int(found.within.sum())), ""],
+        ["frames whose feet were reached", str(int(track.converged.sum())), ""],
+        ["largest position error, within limits", f"{found.largest_position_error:.1e}", "m"],
+        ["largest rotation error, within limits", f"{found.largest_rotation_error:.1e}", "rad"],
         [
             f"largest angle error, within limits, knee bent > {np.degrees(BENT_KNEE):g} deg",
-            f"{facts['max_angle_error_deg']:.1e}",
+            f"{np.degrees(found.largest_angle_error):.1e}",
             "deg",
         ],
-        ["closed form against iteration, largest difference", f"{facts['method_agreement_deg']:.1e}", "deg"],
+        ["closed form against iteration, largest difference", f"{np.degrees(verdict.agreement):.1e}", "deg"],
         ["frames with a joint on its limit", str(int(track.active_limits.any(axis=1).sum())), ""],
         ["least reach to spare", _spare(track.reach_slack), "mm"],
-        ["answered by", ", ".join(used), ""],
+        ["solved by", ", ".join(sorted(set(track.answered_by))), ""],
     ]
     words = (
         "The feet of the walk's own angles on this model are the targets; inverse kinematics finds angles "
-        "within the limits. Where the walk leaves the limits (a knee beyond its stop), the answer is another "
-        "posture with the same feet, if there is one."
+        "within the limits. Where the walk leaves the limits (a knee beyond its stop), the solution is "
+        "another posture with the same feet, if one exists."
     )
     decades = np.log10(np.maximum(track.position_error, 1e-17))
     chart = Chart(
         title="Position error of the feet, log10 of [m]",
         x_label="time [s]",
         curves=tuple(
-            Curve(gait.time, decades[:, k], svg.COLOURS[side], side)
+            Curve(gait.time, decades[:, k], svg.SIDE_COLOURS[side], side)
             for k, side in enumerate(("left", "right"))
         ),
         levels=(Level(float(np.log10(IK_TOLERANCE)), svg.GREY, "tolerance"),),
@@ -60,7 +58,7 @@ def inverse(gait: Gait, verdict: Check) -> Section:
     )
     drawing = Drawing("ik_error", chart.title, draw(chart))
     table = Table(("inverse kinematics", "value", "unit"), rows)
-    return Section("Inverse kinematics", (Words(words), Figure((drawing,), columns=1), table))
+    return Section("Inverse kinematics", (Paragraph(words), Figure((drawing,), columns=1), table))
 
 
 def _spare(slack: Array) -> str:
@@ -70,7 +68,7 @@ def _spare(slack: Array) -> str:
 
 
 def agreement(verdict: Check) -> Section:
-    """Four ways of forward kinematics, and the limits."""
+    """Forward kinematics computed in four ways, and the joint limits."""
     rows = [
         [
             _WITNESSES.get(name, name),
@@ -88,4 +86,4 @@ def agreement(verdict: Check) -> Section:
     note = (
         "Over the walk and 1000 random configurations; positions in metres and entries of rotation matrices."
     )
-    return Section("Cross-checks", (Table(columns, rows), Words(note, "note"), Words(words)))
+    return Section("Cross-checks", (Table(columns, rows), Paragraph(note, "note"), Paragraph(words)))

@@ -1,22 +1,22 @@
-"""Joint angles over the gait cycle, before the normative band."""
+"""Joint angles over the gait cycle, with the normative band behind them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
-from exo_pin.anatomy.names import Movement
+from exo_pin.anatomy.names import Movement, Speed
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait, normative_gait, normative_sd
-from exo_pin.report.document.blocks import Drawing, Figure, Section, Words
-from exo_pin.report.draw import panels, svg
+from exo_pin.gait import Gait, LegCycle, leg_cycles, normative_gait, normative_sd
+from exo_pin.report.document.blocks import Figure, Paragraph, Section
+from exo_pin.report.draw import svg, walk_charts
 from exo_pin.report.draw.chart import Band, Chart, Curve, Level, Span, draw
-from exo_pin.report.draw.leg_cycles import LegCycle, legs
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.robot import Robot
 
-BAND_SOURCE = (
+NORMATIVE_BAND_SOURCE = (
     "Schwartz 2008, {speed}: mean and 1 standard deviation of 51 to 82 children a speed; ankle inversion: "
     "Oxford foot model. Its hip flexion is measured against a pelvis tilted forward by 10 to 18 deg, so "
     "compare shapes and ranges, and levels with care; hip rotation and ankle inversion are weak channels."
@@ -24,14 +24,20 @@ BAND_SOURCE = (
 _LEAST = 20.0  # [deg] smallest extent of an angle's axis
 
 
-def curves(robot: Robot, gait: Gait, normal: str | None) -> Section:
-    """Six charts, both legs in each."""
-    found = legs(gait)
+def curves(robot: Robot, gait: Gait, normal: Speed | None) -> Section:
+    """Six charts, both legs in each.
+
+    Args:
+        robot: The device on a body.
+        gait: The walk.
+        normal: Speed of the normative band; None: no band.
+    """
+    found = leg_cycles(gait)
     if not found:
         words = (
             "The walk has no heel strikes of both feet, so it cannot be placed in a gait cycle: no curves."
         )
-        return Section("Joint angles over the gait cycle", (Words(words),))
+        return Section("Joint angles over the gait cycle", (Paragraph(words),))
     limits = {
         movement: (float(robot.lower[k]), float(robot.upper[k]))
         for movement in MOVEMENTS
@@ -39,18 +45,18 @@ def curves(robot: Robot, gait: Gait, normal: str | None) -> Section:
         for k in [robot.joints.index(name)]
     }
     drawings = charts(found, speed=normal, limits=limits)
-    band = "" if normal is None else " Grey band: " + BAND_SOURCE.format(speed=normal)
+    band = "" if normal is None else " Grey band: " + NORMATIVE_BAND_SOURCE.format(speed=normal)
     caption = "; ".join(leg.note for leg in found) + ". Angles of the walk as given, not filtered." + band
     return Section("Joint angles over the gait cycle", (Figure(drawings, caption),))
 
 
 def charts(
-    found: Sequence[LegCycle], *, speed: str | None, limits: dict[str, tuple[float, float]]
+    found: Sequence[LegCycle], *, speed: Speed | None, limits: Mapping[Movement, tuple[float, float]]
 ) -> tuple[Drawing, ...]:
-    """Six charts over the cycle, both legs in each, before the normative band.
+    """Six charts over the cycle, both legs in each, with the normative band behind them.
 
     Args:
-        found: The legs' curves.
+        found: The curves of each leg.
         speed: Which normative band to draw; None: none.
         limits: By movement, the joint's range [rad].
     """
@@ -61,8 +67,8 @@ def _joint(
     k: int,
     movement: Movement,
     found: Sequence[LegCycle],
-    speed: str | None,
-    limits: dict[str, tuple[float, float]],
+    speed: Speed | None,
+    limits: Mapping[Movement, tuple[float, float]],
 ) -> Drawing:
     bands, curves, spans = [], [], []
     if speed is not None:
@@ -72,17 +78,19 @@ def _joint(
     same = len(found) > 1 and np.array_equal(found[0].percent, found[1].percent)
     same = same and np.allclose(found[0].q, found[1].q, atol=1e-3)
     for leg in found:
-        q, colour = np.degrees(leg.q[:, k]), svg.COLOURS[leg.side]
+        q, colour = np.degrees(leg.q[:, k]), svg.SIDE_COLOURS[leg.side]
         if leg.sd is not None:
             sd = np.degrees(leg.sd[:, k])
             bands.append(Band(leg.percent, q - sd, q + sd, colour))
-        over = "6 6" if same and leg.side == "right" else None  # two equal curves are seen both
+        over = "6 6" if same and leg.side == "right" else None  # dashes show both of two equal curves
         curves.append(Curve(leg.percent, q, colour, leg.side, over))
         if np.isfinite(leg.stance):
             spans.append(Span(0, min(leg.stance, 100.0), colour, f"{leg.side} stance", SIDES.index(leg.side)))
-    levels = [Level(float(np.degrees(x)), panels.LIMIT, "joint limit") for x in limits.get(movement, ())]
+    levels = [
+        Level(float(np.degrees(x)), walk_charts.LIMIT_COLOUR, "joint limit") for x in limits.get(movement, ())
+    ]
     chart = Chart(
-        title=panels.TITLES[movement],
+        title=walk_charts.MOVEMENT_TITLES[movement],
         x_label="% of the leg's gait cycle",
         curves=tuple(curves),
         bands=tuple(bands),
@@ -91,10 +99,10 @@ def _joint(
         x_range=(0, 100),
         least=_LEAST,
     )
-    return Drawing(f"curve_{movement}", panels.TITLES[movement], draw(chart))
+    return Drawing(f"curve_{movement}", walk_charts.MOVEMENT_TITLES[movement], draw(chart))
 
 
-def normal(speed: str, movement: int) -> tuple[Array, Array, Array]:
+def normal(speed: Speed, movement: int) -> tuple[Array, Array, Array]:
     """Percent, mean and standard deviation `(101,)` [deg] of a movement, the end point repeated."""
     mean, sd = normative_gait(speed).q[:, movement], normative_sd(speed)[:, movement]
     return np.linspace(0, 100, 101), np.degrees([*mean, mean[0]]), np.degrees([*sd, sd[0]])

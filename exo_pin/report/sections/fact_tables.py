@@ -1,17 +1,16 @@
-"""Sections of a report that are tables of facts: body, device, the walk's numbers, choices."""
+"""Tables of facts: body, device, spatiotemporal numbers, choices of the report."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 
-from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.body import Leg
-from exo_pin.errors import DescriptionError, GaitError
-from exo_pin.gait import Gait, Stride, against_normal, normal, strides
-from exo_pin.gait.reference_values import CITATIONS
-from exo_pin.kinematics import spatiotemporal
-from exo_pin.report.document.blocks import Block, Section, Table, Words
+from exo_pin.anatomy.names import Speed
+from exo_pin.errors import DescriptionError
+from exo_pin.gait import Gait
+from exo_pin.kinematics import walk_numbers
+from exo_pin.report.document.blocks import Block, Paragraph, Section, Table
 from exo_pin.robot import Robot
 from exo_pin.version import __version__
 
@@ -27,8 +26,8 @@ def body(robot: Robot) -> Section:
         raise DescriptionError("a report needs a robot that load_robot made for a Body")
     left, right = b.legs
     legs = [
-        [name.replace("_", " "), f"{getattr(left, name):.3f}", f"{getattr(right, name):.3f}", _unit(name)]
-        for name in Leg._fields
+        [name.replace("_", " "), f"{value:.3f}", f"{other:.3f}", _unit(name)]
+        for name, value, other in zip(Leg._fields, left, right, strict=True)
     ]
     whole = [
         ["stature", f"{b.stature:.3f}", "m"],
@@ -46,7 +45,7 @@ def body(robot: Robot) -> Section:
     tables: tuple[Block, ...] = (
         Table(("body", "value", "unit"), whole),
         Table(("leg", "left", "right", "unit"), legs),
-        Words(note, "note"),
+        Paragraph(note, "note"),
     )
     return Section("Body", tables)
 
@@ -56,7 +55,7 @@ def _unit(name: str) -> str:
 
 
 def device(robot: Robot) -> Section:
-    """What the device is and drives, and where its numbers come from."""
+    """What the device is and drives, and the source of its numbers."""
     made = robot.device
     rows = [["name", robot.name], ["driven joints", str(len(robot.joints))]]
     rows.append(["hip axes, from the pelvis outwards", robot.hip_order])
@@ -68,39 +67,37 @@ def device(robot: Robot) -> Section:
 
 
 def numbers(robot: Robot, gait: Gait) -> Section:
-    """Cadence, speed, lengths, phases, against published ranges."""
+    """Cadence, speed, lengths and phases against published ranges."""
     title = "Spatiotemporal numbers"
-    try:
-        found = spatiotemporal(robot, gait)
-    except GaitError as error:
-        return Section(title, (Words(f"None: {error}."),))
-    legs = robot.body.leg_length if robot.body else math.nan  # unknown legs have no usual ranges
-    verdicts, ranges = against_normal(found, leg_length=legs), normal(found, leg_length=legs)
+    found = walk_numbers(robot, gait)
+    if found.missing:
+        return Section(title, (Paragraph(f"None: {found.missing}."),))
     rows = []
-    for name, number in found.items():
-        usual = ranges.get(name)
+    for name, number in found.numbers.items():
+        usual = found.usual.get(name)
         span = "-" if usual is None else f"{usual.low:.3g} .. {usual.high:.3g} ({usual.source})"
         sd = "-" if math.isnan(number.sd) else f"{number.sd:.3f}"
         shown = f"{number.mean:.3f}" if number.unit in ("m", "s", "m/s") else f"{number.mean:.1f}"
-        row = [name.replace("_", " "), shown, sd, str(number.n), number.unit, span, verdicts.get(name, "-")]
-        rows.append(row)
+        row = [name.replace("_", " "), shown, sd, str(number.n), number.unit, span]
+        rows.append([*row, found.verdicts.get(name, "-")])
     columns = ("number", "mean", "sd", "n", "unit", "usual", "this walk")
-    cited = "; ".join(
-        f"{key}: {CITATIONS[key]}" for key in sorted({usual.source for usual in ranges.values()})
-    )
+    cited = "; ".join(f"{key}: {text}" for key, text in sorted(found.citations.items()))
     note = f"Lengths are those of this body's legs. Usual ranges: {cited or 'none'}."
-    left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in _left_out(gait))
-    gone = [Words(f"Left out: {'; '.join(left)}.", "note")] if _left_out(gait) else []
-    return Section(title, (Table(columns, rows), *gone, Words(note, "note")))
+    left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in found.left_out)
+    gone = [Paragraph(f"Left out: {'; '.join(left)}.", "note")] if found.left_out else []
+    return Section(title, (Table(columns, rows), *gone, Paragraph(note, "note")))
 
 
-def _left_out(gait: Gait) -> list[Stride]:
-    """Spans between two heel strikes of a foot that are no strides of a walk."""
-    return [span for side in SIDES for span in strides(gait, side) if span.why]
+def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: Speed | None) -> Section:
+    """Everything that was chosen, so that the report can be made again.
 
-
-def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: str | None) -> Section:
-    """Everything that somebody chose, so that the report can be made again."""
+    Args:
+        robot: The device on a body.
+        gait: The walk.
+        chosen: Further choices, by name.
+        rates: How velocities and accelerations were made.
+        normal: Speed of the normative band; None: no band.
+    """
     sources = sorted({event.source or "not stated" for event in gait.events})
     rows = [
         ["source of the walk", gait.source or "not stated"],

@@ -1,15 +1,16 @@
-"""Paths of the feet, and when they stand."""
+"""Paths of the feet, and when each is on the ground."""
 
 from __future__ import annotations
 
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, stance_times
 from exo_pin.kinematics import poses
-from exo_pin.report.document.blocks import Drawing, Figure, Section, Table, Words
-from exo_pin.report.draw import panels, skeleton, svg
+from exo_pin.report.document.blocks import Figure, Paragraph, Section, Table
+from exo_pin.report.draw import skeleton, svg, walk_charts
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.report.draw.chart_axis import ticks
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.robot import Robot
 
 
@@ -28,7 +29,7 @@ def paths(robot: Robot, gait: Gait, forward: str) -> Section:
     stick, note = skeleton.poses_chart(robot, gait)
     caption = (
         f"Heel and ball: midway between the sole's corners. Forward is {forward}; the pelvis is {placed}; "
-        "heights count from the world's ground, where soles of a body of another size need not end."
+        "heights count from the world's ground; the soles of a body of another size may end elsewhere."
     )
     return Section(
         "Paths of the feet", (Figure(drawings, caption, columns=2), Figure((stick,), note, columns=1))
@@ -38,7 +39,7 @@ def paths(robot: Robot, gait: Gait, forward: str) -> Section:
 def contact(gait: Gait) -> Section:
     """Timeline and table of the events."""
     if not gait.events:
-        return Section("Feet on the ground", (Words("No events: contact is unknown."),))
+        return Section("Feet on the ground", (Paragraph("No events: contact is unknown."),))
     before = [None, *(event.time for event in gait.events)]
     rows = [
         [
@@ -63,14 +64,14 @@ def foot_paths(gait: Gait, corners: Array) -> tuple[Drawing, ...]:
         corners: `(n, 8, 3)` of the sole corners in the world, as in `anatomy.CORNERS` [m].
     """
     points = 100 * corners.reshape(len(corners), 2, 2, 2, 3).mean(axis=3)  # side, heel or ball [cm]
-    time, closed = panels.over_time(gait, points)
+    time, closed = walk_charts.over_time(gait, points)
     side, height = [], []
     for s, name in enumerate(SIDES):
         for part, dash in ((0, None), (1, "4 3")):
             label = f"{name} {('heel', 'ball')[part]}"
             xyz = closed[:, s, part]
-            side.append(Curve(xyz[:, 0], xyz[:, 2], svg.COLOURS[name], label, dash))
-            height.append(Curve(time, xyz[:, 2], svg.COLOURS[name], label, dash))
+            side.append(Curve(xyz[:, 0], xyz[:, 2], svg.SIDE_COLOURS[name], label, dash))
+            height.append(Curve(time, xyz[:, 2], svg.SIDE_COLOURS[name], label, dash))
     charts = (
         Chart(
             title="From the side: height over forward [cm]",
@@ -82,7 +83,7 @@ def foot_paths(gait: Gait, corners: Array) -> tuple[Drawing, ...]:
             title="Height of heel and ball [cm]",
             x_label="time [s]",
             curves=tuple(height),
-            spans=panels.stances(gait),
+            spans=walk_charts.stance_spans(gait),
             width=420,
         ),
     )
@@ -98,10 +99,10 @@ def timeline(gait: Gait) -> Drawing:
 
     parts = []
     for row, side in enumerate(SIDES):
-        y, colour = 14 + 34 * row, svg.COLOURS[side]
+        y, colour = 14 + 34 * row, svg.SIDE_COLOURS[side]
         parts.append(svg.text(52, y + 15, side, text_anchor="end", font_weight=600, fill=colour))
         parts.append(svg.tag("rect", x=60, y=y, width=width - 80, height=22, fill=colour, opacity=0.1))
-        for a, b in panels.stance_intervals(gait, side):
+        for a, b in ((start + a, start + b) for a, b in stance_times(gait, side)):
             box = {"x": at(a), "y": y, "width": at(b) - at(a), "height": 22, "rx": 3}
             parts.append(svg.tag("rect", fill=colour, **box))
             if at(b) - at(a) > 46:

@@ -1,54 +1,54 @@
-"""Point by point: what the paper shows, what the reproduction shows, and where the paper is silent."""
+"""The paper's figures one by one: what the paper shows, what this page shows, what remains open."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from exo_pin.report.document.blocks import Section, Table, Words
+from exo_pin.report.document.blocks import Paragraph, Section, Table
 
 
-class Point(NamedTuple):
-    """One figure; words in braces depend on the run."""
+class PaperFigure(NamedTuple):
+    """One figure of the paper; words in braces depend on the run."""
 
-    figure: str
-    paper: str
-    ours: str
-    open: str
+    title: str
+    in_paper: str
+    on_this_page: str
+    open_points: str
 
 
-POINTS = (
-    Point(
+_FIGURES = (
+    PaperFigure(
         "Fig. 1: coordinate frames",
         "World frame on the ground between the feet; body and 12 joints, all parallel at the start",
         "The same frames, of our model at q = 0, with origins, axes and the deviation from parallel",
         "Segment lengths: ours are anthropometric",
     ),
-    Point(
+    PaperFigure(
         "Fig. 2: inverse kinematics",
         "Guess, forward kinematics, compare the foot pose, correct, repeat",
         "The loop as our iterative solver runs it, and its error after each correction",
         "Tolerance and treatment of joint limits: ours are stated",
     ),
-    Point(
+    PaperFigure(
         "Fig. 3: three-dimensional model",
         "The 3-D model of the exoskeleton",
         "Our model, {drawn}",
         "Shapes and colours are ours",
     ),
-    Point(
+    PaperFigure(
         "Fig. 4: input gait",
         "Clinical gait curves (Hong Kong Polytechnic University, clinicalgaitanalysis.com)",
         "Schwartz 2008 at free speed{and_recording}, with bands of 1 standard deviation. Not the paper's "
         "curves number by number",
         "Its numbers could not be found; nothing here is read off its picture",
     ),
-    Point(
+    PaperFigure(
         "Fig. 5: ten poses",
         "Ten poses of one gait cycle, axes in cm",
         "Ten poses of one cycle of Schwartz's walk, axes in cm{and_rendered}",
         "The body's size in its picture; ours is stated with the figure",
     ),
-    Point(
+    PaperFigure(
         "Fig. 6: recovered joint curves",
         "Curves recovered by inverse kinematics (dotted) over the measured ones (solid)",
         "The same, exact by construction since the feet are the model's own; and cases that are not: "
@@ -60,13 +60,13 @@ POINTS = (
 
 
 def overview(recording: str, *, rendered: bool) -> Section:
-    """The table of all points.
+    """The table of all figures.
 
     Args:
         recording: Name of the recording that is shown besides the normal walk; empty: none.
         rendered: Whether a browser drew the model and the poses.
     """
-    said = {
+    words_of_run = {
         "drawn": "rendered in the browser"
         if rendered
         else "as a line drawing (no browser was used in this run)",
@@ -74,9 +74,9 @@ def overview(recording: str, *, rendered: bool) -> Section:
         "and_recording": f" and {recording}" if recording else "",
         "a_recording": "a recording, and " if recording else "",
     }
-    rows = [[point.figure, point.paper, point.ours.format_map(said), point.open] for point in POINTS]
+    rows = [[x.title, x.in_paper, x.on_this_page.format_map(words_of_run), x.open_points] for x in _FIGURES]
     columns = ("point", "the paper", "this page", "open in the paper, or not at hand")
     words = "Point by point. Every number below was computed in this run."
     return Section(
-        "What the paper shows and what this page shows", (Words(words), Table(columns, rows, prose=True))
+        "What the paper shows and what this page shows", (Paragraph(words), Table(columns, rows, prose=True))
     )

@@ -9,9 +9,10 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.demand import range_demands
 from exo_pin.gait import Gait
-from exo_pin.report.document.blocks import Block, Drawing, Figure, Section, Table
+from exo_pin.report.document.blocks import Block, Figure, Section, Table
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart_axis import ticks
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.robot import Robot
 
 
@@ -60,7 +61,7 @@ def range_bars(rows: Sequence[tuple[str, float, float, float, float]]) -> Drawin
         parts.append(svg.line([[at, 8], [at, bottom]], svg.FAINT, stroke_width=0.8))
         parts.append(svg.text(at, bottom + 13, f"{x:.0f}", text_anchor="middle", font_size=10, fill=svg.GREY))
     for k, (joint, a, b, lower, upper) in enumerate(rows):
-        y, colour = 10 + 19 * k, svg.COLOURS.get(joint.split("_")[0], svg.GREY)
+        y, colour = 10 + 19 * k, svg.SIDE_COLOURS.get(joint.split("_")[0], svg.GREY)
         parts.append(svg.text(left - 8, y + 12, joint.replace("_", " "), text_anchor="end"))
         room = {"x": left + scale * (lower - low), "y": y + 4, "width": scale * (upper - lower), "height": 9}
         parts.append(svg.tag("rect", fill="#c9d1d9", rx=2, **room))

@@ -1,4 +1,4 @@
-"""Joint velocities and accelerations for the report, and how they were made."""
+"""Joint velocities and accelerations of a walk, low-pass filtered where it is a recording."""
 
 from __future__ import annotations
 
@@ -30,13 +30,15 @@ class JointRates:
     how: str
 
 
-def motion(robot: Robot, gait: Gait, cutoff: float | None) -> JointRates:
+def joint_rates(robot: Robot, gait: Gait, *, cutoff: float | None) -> JointRates:
     """Rates of the joints in the robot's own order and hip convention.
+
+    A periodic gait is differentiated by its Fourier series and never filtered.
 
     Args:
         robot: The robot.
         gait: The walk.
-        cutoff: Low-pass before differentiating a recording [Hz]; None: none.
+        cutoff: Low-pass before a recording is differentiated [Hz]; None: no filter.
     """
     q = robot.angles(robot.from_gait(gait))
     if gait.periodic:

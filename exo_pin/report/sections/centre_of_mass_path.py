@@ -7,14 +7,15 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass
-from exo_pin.report.document.blocks import Drawing, Figure, Section, Table
-from exo_pin.report.draw import panels
+from exo_pin.report.document.blocks import Figure, Section, Table
+from exo_pin.report.draw import walk_charts
 from exo_pin.report.draw.chart import Chart, Curve, draw
+from exo_pin.report.draw.drawing import Drawing
 from exo_pin.robot import Robot
 
 
-def mass(robot: Robot, gait: Gait) -> Section:
-    """Charts about its mean, and a table."""
+def centre_of_mass(robot: Robot, gait: Gait) -> Section:
+    """Charts about its mean, and a table of means and excursions."""
     base = robot.base_of(gait)
     position = center_of_mass(robot, robot.from_gait(gait), base=base).position
     rows = [
@@ -36,7 +37,7 @@ def mass(robot: Robot, gait: Gait) -> Section:
 
 def charts(gait: Gait, position: Array) -> tuple[Drawing, ...]:
     """Forward, left and up `(n, 3)` [m] about their means, in millimetres."""
-    time, closed = panels.over_time(gait, 1e3 * (position - position.mean(axis=0)))
+    time, closed = walk_charts.over_time(gait, 1e3 * (position - position.mean(axis=0)))
     drawings = []
     for axis, name in enumerate(("forward", "to the left", "up")):
         title = f"Centre of mass, {name} [mm]"
@@ -44,7 +45,7 @@ def charts(gait: Gait, position: Array) -> tuple[Drawing, ...]:
             title=title,
             x_label="time [s]",
             curves=(Curve(time, closed[:, axis], "#2f7d5b"),),
-            spans=panels.stances(gait),
+            spans=walk_charts.stance_spans(gait),
             least=10.0,
             height=170,
         )

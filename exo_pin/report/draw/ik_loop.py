@@ -1,54 +1,25 @@
-"""The inverse kinematics' loop (the paper's Fig. 2) as a diagram, and its error from step to step."""
+"""The loop of inverse kinematics (the paper's Fig. 2) as a diagram, and its error against the step."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from exo_pin import ik
-from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait
-from exo_pin.gait.rigid_poses import angle_of
-from exo_pin.kinematics import poses
-from exo_pin.report.document.blocks import Drawing
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
-from exo_pin.robot import Robot
-
-MOST = 30
-"""Corrections that are shown at most."""
-
-
-def errors_by_step(robot: Robot, gait: Gait, sample: int, *, tolerance: float) -> Array:
-    """Larger foot error `(steps + 1,)` [m or rad] after 0, 1, 2 .. corrections, from mid-range.
-
-    Every entry is an answer of its own with that many steps at most; the last one has converged, or is the
-    30th.
-    """
-    row = gait.base[sample : sample + 1] if gait.base is not None and robot.base == "fixed" else None
-    q = robot.from_gait(gait)[sample : sample + 1]
-    feet = poses(robot, q, FEET, base=row)
-    targets = {foot: feet[:, k] for k, foot in enumerate(FEET)}
-    middle = robot.neutral
-    middle[robot.nq - len(robot.joints) :] = 0.5 * (robot.lower + robot.upper)
-    start = poses(robot, middle[None], FEET, base=row)
-    turn = np.swapaxes(start[0, :, :3, :3], -1, -2) @ feet[0, :, :3, :3]
-    away = np.linalg.norm(start[0, :, :3, 3] - feet[0, :, :3, 3], axis=-1)
-    errors = [float(max(angle_of(turn).max(), away.max()))]
-    settings = ik.Dls(tolerance=tolerance, restarts=0)
-    for steps in range(1, MOST + 1):
-        track = ik.track(robot, targets, middle, base=row, settings=replace(settings, max_iterations=steps))
-        errors.append(float(max(track.position_error.max(), track.rotation_error.max())))
-        if track.converged.all():
-            break
-    return np.array(errors)
+from exo_pin.report.draw.drawing import Drawing
 
 
 def convergence(errors: Array, tolerance: float, percent: float) -> Drawing:
-    """The errors on a logarithmic scale (decades)."""
+    """The errors on a logarithmic scale (decades).
+
+    Args:
+        errors: `(k + 1,)` after 0, 1 .. k corrections [m or rad].
+        tolerance: At which the iteration ends [m or rad].
+        percent: Where in the walk the sample lies.
+    """
     decades = np.log10(np.maximum(errors, 1e-16))
     steps = np.arange(len(errors))
     chart = Chart(
@@ -64,7 +35,7 @@ def convergence(errors: Array, tolerance: float, percent: float) -> Drawing:
 
 
 def diagram(tolerance: float) -> Drawing:
-    """Guess, forward kinematics, compare, correct, repeat."""
+    """Guess, forward kinematics, compare, correct, repeat; `tolerance` [m and rad]."""
     boxes = (
         (20, "start: mid-range, or the sample before", "q"),
         (92, "forward kinematics: poses of both feet", "T(q)"),

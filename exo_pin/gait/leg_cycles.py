@@ -1,4 +1,4 @@
-"""Joint angles of each leg over its own gait cycle, for charts: mean, spread, or a labelled estimate."""
+"""Each leg's joint angles over its own gait cycle: mean, spread, or an estimate from a single step."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait, cycles
+from exo_pin.gait.cycles import CYCLE_POINTS, cycles
+from exo_pin.gait.gait import Gait
+from exo_pin.gait.strides import strides
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,10 +22,10 @@ class LegCycle:
 
     Attributes:
         side: Which leg.
-        percent: (m,) of the cycle; NaN parts two pieces of the curve.
-        q: (m, 6) angles in the order of `MOVEMENTS` [rad].
-        sd: (m, 6) standard deviation over the cycles [rad]; None for fewer than two.
-        stance: When the foot leaves the ground, in percent of the cycle; NaN if unknown.
+        percent: `(m,)` of the cycle; NaN separates two pieces of the curve.
+        q: `(m, 6)` angles in the order of `MOVEMENTS` [rad].
+        sd: `(m, 6)` standard deviation over the cycles [rad]; None for fewer than two.
+        stance: Toe-off in percent of the cycle; NaN if unknown.
         note: How the curve was made.
     """
 
@@ -35,9 +37,32 @@ class LegCycle:
     note: str
 
 
-def legs(gait: Gait) -> tuple[LegCycle, ...]:
-    """Both legs, those that have a cycle or at least a heel strike to count from."""
-    return tuple(leg for leg in (_leg(gait, side) for side in SIDES) if leg is not None)
+def leg_cycles(gait: Gait) -> tuple[LegCycle, ...]:
+    """The cycle of each leg; a leg without a heel strike is left out.
+
+    A recording without a whole cycle is placed in the cycle by one heel strike and twice the step time; the
+    note of its legs says so.
+    """
+    found = (_leg(gait, side) for side in SIDES)
+    return tuple(leg for leg in found if leg is not None)
+
+
+def cycle_times(gait: Gait, side: Side) -> Array:
+    """Times `(k, 101)` [s] at 0, 1 .. 100 % of each of a foot's k whole cycles; k may be 0."""
+    whole = [stride for stride in strides(gait, side) if not stride.why]
+    return np.array([np.linspace(x.start, x.end, CYCLE_POINTS) for x in whole]).reshape(-1, CYCLE_POINTS)
+
+
+def mean_over_cycles(gait: Gait, times: Array, values: Array) -> Array:
+    """A series of a walk over a foot's cycle: the mean of its cycles `(101,)`, linear between samples.
+
+    Args:
+        gait: The walk.
+        times: `(k, 101)` of `cycle_times`, k at least 1 [s].
+        values: `(n,)` the series at the samples of the walk, in any unit.
+    """
+    period = gait.duration if gait.periodic else None
+    return np.asarray(np.interp(times, gait.time, values, period=period).mean(axis=0))
 
 
 def _leg(gait: Gait, side: Side) -> LegCycle | None:

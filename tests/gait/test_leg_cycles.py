@@ -1,0 +1,70 @@
+"""The cycle of each leg and the times of its stance: mean, spread, estimate, open ends."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exo_pin.gait import Event, Gait, leg_cycles, normative_gait, stance_times
+
+FOURIER = 1e-9  # [rad] interpolation of a band-limited curve at its own samples
+
+
+@pytest.fixture(scope="module")
+def gait():
+    return normative_gait()
+
+
+@pytest.fixture(scope="module")
+def recording(gait):
+    """Two and a half cycles that do not repeat, with the events of each."""
+    walk = gait.repeated(3)
+    keep = walk.time <= 2.5 * gait.duration
+    events = [event for event in walk.events if event.time <= walk.time[keep][-1]]
+    return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="repeated")
+
+
+def test_legs_of_a_normal_walk_are_its_curves(gait):
+    left, right = leg_cycles(gait)
+    np.testing.assert_allclose(left.q[:-1], gait.q[:, :6], atol=FOURIER)
+    np.testing.assert_allclose(right.q[:-1], np.roll(gait.q[:, 6:], -50, axis=0), atol=FOURIER)
+    assert left.stance == pytest.approx(59.0)
+
+
+def test_legs_of_several_cycles_have_a_spread_and_one_step_gives_an_estimate(recording):
+    left, _ = leg_cycles(recording)
+    assert left.sd is not None
+    assert left.sd.max() < 1e-3  # the cycles are copies; resampling differs a little
+    keep = recording.time < 0.6 * recording.time[-1] / 2.5
+    step = replace(
+        recording,
+        time=recording.time[keep],
+        q=recording.q[keep],
+        base=recording.base[keep],
+        events=[e for e in recording.events if e.time <= recording.time[keep][-1]],
+    )
+    estimated = leg_cycles(step)
+    assert all("no whole cycle" in leg.note for leg in estimated)
+    T = 2 * (step.events[2].time - step.events[0].time)
+    np.testing.assert_allclose(np.nanmax(estimated[0].percent), 100 * step.time[-1] / T)
+
+
+def test_stance_is_closed_at_the_ends_of_a_recording_and_around_a_cycle(gait):
+    assert stance_times(gait, "left") == ((0.0, pytest.approx(0.59 * gait.duration)),)
+    (first, second) = stance_times(gait, "right")
+    assert first[0] == 0.0
+    assert second[1] == pytest.approx(gait.duration)
+    events = [Event(0.3, "toe_off", "left"), Event(0.7, "heel_strike", "left")]
+    walk = Gait(np.linspace(0, 1, 20), np.zeros((20, 12)), events=events)
+    assert stance_times(walk, "left") == ((0.0, 0.3), (0.7, 1.0))
+    assert stance_times(walk, "right") == ()
+
+
+def test_the_times_of_a_stance_count_from_the_first_sample(recording):
+    late = replace(
+        recording,
+        time=recording.time + 5.0,
+        events=[replace(event, time=event.time + 5.0) for event in recording.events],
+    )
+    for side in ("left", "right"):
+        np.testing.assert_allclose(stance_times(late, side), stance_times(recording, side), atol=1e-12)
