@@ -10,7 +10,7 @@ from exo_pin import crosscheck, edit
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.demand import ACCELERATION_LIMIT, PeakDemand, RangeDemand, joint_demands, range_demands
 from exo_pin.feasible import feasible
-from exo_pin.gait import Gait, Torques, curves, normative_gait
+from exo_pin.gait import Gait, Torques, normative_gait, time_series
 from exo_pin.robot import load_robot
 
 GAIT = normative_gait().resampled(50)
@@ -98,7 +98,7 @@ def test_another_hip_order_has_its_own_angles_and_rates():
     for j, joint in enumerate(robot.joints):
         demand = _of(demands, joint)
         np.testing.assert_array_equal(demand.position.required, angles[:, j])
-        dq = curves.derivative(GAIT.time, angles[:, j : j + 1], 1, GAIT.duration)[:, 0]
+        dq = time_series.derivative(GAIT.time, angles[:, j : j + 1], 1, GAIT.duration)[:, 0]
         np.testing.assert_allclose(demand.speed.required, dq, atol=ROUNDED)
     clinical = _of(joint_demands(load_robot(), GAIT), "left_hip_rotation")
     assert _of(demands, "left_hip_rotation").speed.peak != pytest.approx(clinical.speed.peak, rel=0.01)
