@@ -1,11 +1,17 @@
-"""The floors of the house: a module imports only from lower floors, and some rooms stay pure."""
+"""The floors of the house: a module imports only from lower floors, and some rooms stay pure.
+
+The imports between the package's own modules are read by scripts/structure, those for types included.
+"""
 
 import ast
+import importlib.util
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).resolve().parents[1] / "exo_pin"
+REPOSITORY = Path(__file__).resolve().parents[1]
+PACKAGE = REPOSITORY / "exo_pin"
 FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
     {"files"},
@@ -25,6 +31,15 @@ FLOORS = [
     {"cli"},
     {"__init__", "__main__"},
 ]
+INNER_FLOORS = {  # of rooms with folders, in the same order; "." are the modules that no other entry names
+    "formats": [{"presets", "reading"}, {"tables"}, {"c3d", "opensim"}, {"."}],
+    "ik": [{"settings", "targets", "problem", "result"}, {"leg", "least_squares"}, {"."}],
+    "report": [{"document"}, {"draw"}, {"sections"}, {"pages"}],
+    "viewer": [{"drawing_commands"}, {"meshes"}, {"scenes"}, {"page"}, {"film", "live"}, {"."}],
+    "cli": [{"."}, {"commands"}],
+}
+BORROWED = {("edit", "cycles"), ("info", "cycles"), ("film", "picture")}
+"""Commands that still import another one; what they share belongs beside the commands. Add nothing here."""
 GROUND = {"errors", "arrays", "physics", "frozen_fields", "files", "cache", "anatomy", "devices"}
 FLOOR = {room: k for k, rooms in enumerate(FLOORS) for room in rooms}
 ONLY = {  # what comes from elsewhere is imported here and nowhere else
@@ -44,24 +59,32 @@ def dotted(path):
     return ".".join(parts).removesuffix(".__init__")
 
 
-MODULES = {dotted(path) for path in FILES}
+def script(name):
+    """A script of scripts/ as a module."""
+    loader = SourceFileLoader(name, str(REPOSITORY / "scripts" / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+structure = script("structure")
+GRAPH = structure.graph()
+"""Module -> modules of the package that it imports."""
 
 
 def room(path):
     return path.relative_to(PACKAGE).with_suffix("").parts[0]
 
 
-def imports(path, *, top_level=False):
-    """Dotted names that a file imports; those in functions and under TYPE_CHECKING too unless `top_level`."""
+def foreign(path, *, top_level=False):
+    """Packages from elsewhere that a file imports, in functions and for types too unless `top_level`."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     nodes = ast.iter_child_nodes(tree) if top_level else ast.walk(tree)
     for node in nodes:
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            yield from (alias.name.split(".")[0] for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            for alias in node.names:
-                name = f"{node.module}.{alias.name}"
-                yield name if name in MODULES else node.module
+            yield node.module.split(".")[0]
 
 
 def ours(name):
@@ -77,49 +100,81 @@ def test_a_module_imports_only_from_lower_floors(path):
     here = room(path)
     if here == "__init__":
         return  # the front door names every room
-    for name in imports(path):
-        other = ours(name)
-        if other and other != here and other in FLOOR:
+    for name in GRAPH[dotted(path)]:
+        other = ours(name) or "__init__"  # `import exo_pin` and `from exo_pin import load_robot` go up
+        if other != here and here != "__main__":
             assert FLOOR[other] < FLOOR[here], f"{path} imports {name}"
+
+
+def part_of(room, module):
+    """The entry of `INNER_FLOORS` that a module of a room belongs to."""
+    part = module.split(".")[2]
+    return part if any(part in parts for parts in INNER_FLOORS[room]) else "."
+
+
+@pytest.mark.parametrize("room", INNER_FLOORS)
+def test_the_parts_of_a_room_keep_their_order(room):
+    """Parts on one floor may import each other; the room's own `__init__` passes names on."""
+    level = {part: k for k, parts in enumerate(INNER_FLOORS[room]) for part in parts}
+    mine = {name for name in GRAPH if name.startswith(f"exo_pin.{room}.")}
+    for name in mine:
+        for other in GRAPH[name] & mine:
+            here, there = (part_of(room, module) for module in (name, other))
+            assert level[there] <= level[here], f"{name} imports {other}"
+
+
+@pytest.mark.parametrize("room", INNER_FLOORS)
+def test_every_part_of_a_room_has_a_floor_and_every_floor_a_part(room):
+    folders = {path.name for path in (PACKAGE / room).iterdir() if (path / "__init__.py").exists()}
+    modules = {path.stem for path in (PACKAGE / room).glob("*.py")} - {"__init__"}
+    named = {part for parts in INNER_FLOORS[room] for part in parts} - {"."}
+    assert folders <= named <= folders | modules
+
+
+def test_no_command_imports_another():
+    commands = {name for name in GRAPH if name.startswith("exo_pin.cli.commands.")}
+    found = {(name, other) for name in commands for other in GRAPH[name] & commands}
+    assert {(a.rpartition(".")[2], b.rpartition(".")[2]) for a, b in found} <= BORROWED
+
+
+def test_a_file_name_has_one_meaning():
+    """`SAME_MEANING` of scripts/structure gives each exception its reason."""
+    assert structure.twice(structure.file_names()) == []
+    stems = [path.stem for path in FILES]
+    for name, reason in structure.SAME_MEANING.items():
+        assert stems.count(name) > 1, f"{name} needs no exception"
+        assert reason
+
+
+def test_no_module_imports_the_front_door():
+    assert structure.front_door() == []
+
+
+def test_imports_are_absolute():
+    """The graph of the imports would not see others."""
+    for path in FILES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            assert not (isinstance(node, ast.ImportFrom) and node.level), path
 
 
 @pytest.mark.parametrize("path", [p for p in FILES if room(p) in ("dh", "gait")], ids=lambda p: p.name)
 def test_witness_and_gait_know_only_numpy_and_the_ground_floor(path):
-    for name in imports(path):
-        other = ours(name)
-        if other:
-            assert other in GROUND | {room(path)}
-        else:
-            assert name.split(".")[0] not in {"pinocchio", "xacro", "scipy", "yourdfpy", "meshcat"}
+    assert {ours(name) for name in GRAPH[dotted(path)]} <= GROUND | {room(path)}
+    assert not {"pinocchio", "xacro", "scipy", "yourdfpy", "meshcat"} & set(foreign(path))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_foreign_packages_stay_in_their_rooms(path):
-    for name in imports(path):
-        rooms = ONLY.get(name.split(".")[0])
+    for name in foreign(path):
+        rooms = ONLY.get(name)
         assert rooms is None or room(path) in rooms, f"{path} imports {name}"
 
 
 @pytest.mark.parametrize("path", [p for p in FILES if room(p) not in ("viewer",)], ids=lambda p: p.name)
 def test_heavy_packages_are_imported_where_they_are_needed(path):
-    assert not {name.split(".")[0] for name in imports(path, top_level=True)} & HEAVY
+    assert not set(foreign(path, top_level=True)) & HEAVY
 
 
-def test_rooms_do_not_import_each_other_in_circles():
-    graph = {dotted(path): set(imports(path, top_level=True)) for path in FILES}
-    done, open_now = set(), []
-
-    def visit(name):
-        assert name not in open_now, " -> ".join([*open_now, name])
-        if name in done or name not in graph:
-            return
-        open_now.append(name)
-        for other in graph[name]:
-            if other != name:
-                visit(other)
-        open_now.pop()
-        done.add(name)
-
-    for name in graph:
-        if name not in ("exo_pin", "exo_pin.__main__"):
-            visit(name)
+def test_modules_do_not_import_each_other_in_circles():
+    """Imports for types and in functions count."""
+    assert structure.circles() == []
