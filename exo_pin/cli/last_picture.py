@@ -1,4 +1,4 @@
-"""What `replay` showed for the same command line last time: served again at once, before NumPy is loaded.
+"""The last picture of `replay` for the same command line: served again at once, before NumPy is loaded.
 
 It is replaced by this run's own picture, unless that is the same.
 """
@@ -23,7 +23,7 @@ _CODE = {".py", ".xacro", ".js", ".css", ".html"}
 
 
 def serve(words: Sequence[str]) -> Server | None:
-    """A server that shows last time's picture, or None: there is none, or none is wanted.
+    """A server that shows last time's picture, or None where nothing was kept for these words.
 
     Args:
         words: The command line behind `exo-pin`.
@@ -33,7 +33,7 @@ def serve(words: Sequence[str]) -> Server | None:
         return None
     from exo_pin import viewer
 
-    args, _ = _address().parse_known_args(words)  # no surprises: these words have been understood before
+    args, _ = _address().parse_known_args(words)  # cannot fail: these words were parsed before
     opens = not args.no_open and has_display()
     server = viewer.serve(host=args.host, port=args.port, open_browser=opens)
     server.preview(packed)
@@ -41,7 +41,7 @@ def serve(words: Sequence[str]) -> Server | None:
 
 
 def add_address(parser: argparse.ArgumentParser) -> None:
-    """Where the page is to be."""
+    """Port and host of the page, and whether a browser opens."""
     parser.add_argument(
         "--port", type=int, default=7000, help="port of the page, or the next free one (default: 7000)"
     )

@@ -1,8 +1,9 @@
-"""The walk that replay, picture and film show: a gait, recovered by inverse kinematics, as a scene."""
+"""The walk that replay, picture, film and report show: read, recovered by inverse kinematics, as a scene."""
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from exo_pin.crosscheck import Recovery
     from exo_pin.gait import Gait
     from exo_pin.robot import Robot
-    from exo_pin.viewer import Scene
+    from exo_pin.viewer import Scene, SceneOptions
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -62,49 +63,45 @@ def read(args: argparse.Namespace) -> tuple[Body, Gait]:
 
 
 def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
-    """Solve, print the residuals, and compile the scene."""
+    """Recover the walk by inverse kinematics, print the residuals, and make the scene.
+
+    Args:
+        args: The command line, with the arguments of `add`.
+        body: As `read` returns it.
+        gait: As `read` returns it.
+
+    Raises:
+        DescriptionError: Options contradict each other.
+    """
+    return _exoskeleton(args, body, gait) if args.robot is None else _other_robot(args, body, gait)
+
+
+def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
+    """The walk on the exoskeleton or another device, with the gait's own curves dashed."""
     from exo_pin import viewer
     from exo_pin.robot import load_robot
 
-    if args.robot is not None:
-        return _of_robot(args, body, gait)
-    curves = torque_options.given(args)
+    torques = torque_options.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
     name = Path(args.gait).name
-    notes = [line for line in (gait.source, note) if line]
-    title = name
-    if args.device == "exo12":
-        shown, beyond = _recovered(robot, gait, name)
-        notes += beyond
-    else:
-        robot, shown, said = _on_device(args, body, gait)
-        notes.append(said)
-        title = f"{name} on {said.partition(' (')[0]}"
-    second = None if args.compare is None else options.load(args.compare, body, preset=args.preset)
-    return viewer.scene(
-        robot,
-        shown,
-        reference=gait,
-        compare=second,
-        compare_title=Path(args.compare or "").name,
-        torques=curves,
-        title=f"{title} - exo_pin",
-        support=args.support,
-        notes=notes,
-        speed=args.speed,
-    )
+    found = _recovered(robot, gait, name) if args.device == "exo12" else _on_device(args, body, gait)
+    chosen = _scene_options(args, body, name + found.title, [gait.source, note, *found.notes])
+    return viewer.exoskeleton_scene(found.robot, found.gait, chosen, reference=gait, torques=torques)
 
 
-def _of_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
-    """The walk on another robot, and what it misses."""
+def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
+    """The walk retargeted to another robot, and what its feet miss."""
     from exo_pin import retarget, viewer
     from exo_pin.robot import load_robot
 
-    for option, other in (("device", "exo12"), ("hip_order", "clinical"), ("torques", None)):
-        if getattr(args, option) != other:
-            name = option.replace("_", "-")
-            raise DescriptionError(f"--{name} is for the exoskeleton; leave it away with --robot")
+    used = {
+        "--device": args.device != "exo12",
+        "--hip-order": args.hip_order != "clinical",
+        "--torques": args.torques is not None,
+    }
+    for option in (name for name, given in used.items() if given):
+        raise DescriptionError(f"{option} is for the exoskeleton; leave it away with --robot")
     gait, note = options.with_events(load_robot(body), gait)
     walk = retarget.retarget(gait, args.robot, body)
     title = walk.target.title or walk.target.name
@@ -115,19 +112,44 @@ def _of_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         f"{position:.2f} mm and {rotation:.1f} deg at most "
         f"({walk.samples_missed} of {len(gait)} samples missed)"
     )
-    return viewer.retargeted(
-        walk,
+    return viewer.robot_scene(
+        walk, _scene_options(args, body, f"{Path(args.gait).name} on {title}", [gait.source, note])
+    )
+
+
+def _scene_options(args: argparse.Namespace, body: Body, title: str, notes: list[str]) -> SceneOptions:
+    """What a scene shows besides its walk, by the command line; empty notes are left out."""
+    from exo_pin import viewer
+
+    return viewer.SceneOptions(
+        title=f"{title} - exo_pin",
+        support=args.support,
         compare=None if args.compare is None else options.load(args.compare, body, preset=args.preset),
         compare_title=Path(args.compare or "").name,
-        title=f"{Path(args.gait).name} on {title} - exo_pin",
-        support=args.support,
-        notes=[line for line in (gait.source, note) if line],
+        notes=tuple(filter(None, notes)),
         speed=args.speed,
     )
 
 
-def _recovered(robot: Robot, gait: Gait, name: str) -> tuple[Gait, list[str]]:
-    """The walk that inverse kinematics makes of the gait's feet, and what the gait asks beyond the limits."""
+@dataclass(frozen=True, eq=False)
+class _Recovered:
+    """A walk as inverse kinematics found it.
+
+    Attributes:
+        robot: The robot that walks.
+        gait: Its walk.
+        title: What the page's heading adds to the walk's name.
+        notes: What the walk misses, in sentences.
+    """
+
+    robot: Robot
+    gait: Gait
+    title: str
+    notes: list[str]
+
+
+def _recovered(robot: Robot, gait: Gait, name: str) -> _Recovered:
+    """The walk from the gait's feet on the exoskeleton, and where the gait goes beyond the joint limits."""
     from exo_pin import crosscheck
 
     recovery = crosscheck.recover(robot, gait)
@@ -135,11 +157,11 @@ def _recovered(robot: Robot, gait: Gait, name: str) -> tuple[Gait, list[str]]:
     beyond = _beyond(robot, gait)
     for line in beyond:
         print(line)
-    return recovery.gait, beyond
+    return _Recovered(robot, recovery.gait, "", beyond)
 
 
-def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot, Gait, str]:
-    """The device's best motion towards the gait's feet, on a robot of its looks, and what it misses."""
+def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> _Recovered:
+    """The device's best motion towards the gait's feet, on a robot with its appearance."""
     from exo_pin import devices
     from exo_pin.compare import compare, dressed
 
@@ -148,12 +170,13 @@ def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot,
     device = devices.find(args.device)
     loss = compare(gait, [device], body).best[0]
     rms, most = 1e3 * loss.rms, 1e3 * float(loss.sole_error.max())
-    said = (
-        f"{device.title or device.name} ({device.motors} motors), the pelvis moving as recorded: the soles "
+    title = device.title or device.name
+    note = (
+        f"{title} ({device.motors} motors), the pelvis moving as recorded: the soles "
         f"miss the recorded ones by {rms:.1f} mm rms, {most:.1f} mm at most."
     )
-    print(said)
-    return dressed(loss.motion.robot), loss.motion.gait, said
+    print(note)
+    return _Recovered(dressed(loss.motion.robot), loss.motion.gait, f" on {title.partition(' (')[0]}", [note])
 
 
 def _print(recovery: Recovery, name: str) -> None:
@@ -169,7 +192,7 @@ def _print(recovery: Recovery, name: str) -> None:
 
 
 def _beyond(robot: Robot, gait: Gait) -> list[str]:
-    """What the gait asks beyond the joint limits, a sentence each."""
+    """Where the gait goes beyond the joint limits, a sentence each."""
     from exo_pin.demand import range_demands
 
     lines = []

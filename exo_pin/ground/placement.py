@@ -1,4 +1,4 @@
-"""The walk as the picture shows it: where pelvis, feet and centre of mass are, and who stands."""
+"""A walk placed on its ground: where pelvis, feet and centre of mass are, and which foot stands."""
 
 from __future__ import annotations
 
@@ -8,26 +8,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy import CORNERS, FEET
+from exo_pin.anatomy import CORNERS, FEET, SIDES, Body
+from exo_pin.anatomy.names import SupportStyle
 from exo_pin.arrays import Array
+from exo_pin.devices import TOES
 from exo_pin.gait import Gait
-from exo_pin.ground import stance
-from exo_pin.ground.support import WHO, Support, support
+from exo_pin.ground.stance import Intervals, estimated_stance, lowest_corners, stance_from_events
+from exo_pin.ground.support import Support, support
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
 
+_EXOSKELETON = "Balance support: the pelvis"
+"""Subject of the note on the support: an exoskeleton's pelvis hangs in one."""
+
 
 @dataclass(frozen=True, eq=False)
-class Placement:
-    """What is shown, sampled as the gait is.
+class PlacedWalk:
+    """A walk on its ground, sampled as its gait is.
 
     Attributes:
         time: `(n,)` from 0 [s].
         q: `(n, J)` joint values in the order of `Robot.joints` [rad].
-        base: `(n, 4, 4)` pose of the pelvis as shown.
-        feet: `(n, 2, 4, 4)` poses of `FEET` as shown.
-        corners: `(n, 8, 3)` sole corners as shown [m].
-        com: `(n, 3)` centre of mass as shown [m].
+        base: `(n, 4, 4)` pose of the pelvis as placed.
+        feet: `(n, 2, 4, 4)` poses of `FEET` as placed.
+        corners: `(n, 8, 3)` sole corners as placed [m].
+        com: `(n, 3)` centre of mass as placed [m].
         stance: Side -> intervals on the ground.
         estimated: Whether stance is guessed from heights because the gait has no events.
         support: How the pelvis was carried, and what remains.
@@ -39,76 +44,97 @@ class Placement:
     feet: Array
     corners: Array
     com: Array
-    stance: stance.Intervals
+    stance: Intervals
     estimated: bool
     support: Support
 
 
-def motion(robot: Robot, gait: Gait, style: str = "carried") -> Placement:
+def place_walk(robot: Robot, gait: Gait, style: SupportStyle = "carried") -> PlacedWalk:
     """Put a robot through a gait and stand it on the ground.
 
     Args:
         robot: With the joints of a gait, `FEET` and `CORNERS`.
         gait: The walk; its own base motion is used if it has one.
-        style: How the pelvis is carried, one of `support.STYLES`.
+        style: How the pelvis is carried, one of `STYLES`.
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such style.
     """
-    q = at_rest(robot, robot.from_gait(gait))
+    q = _base_at_placement(robot, robot.from_gait(gait))
     back = np.linalg.inv(robot.placement)
     T_pelvis = back @ poses(robot, q, (*FEET, *CORNERS))  # (n, 10, 4, 4)
-    com_pelvis = moved(back, center_of_mass(robot, q).position)
-    given = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
-    return stood(gait, robot.angles(q), given, T_pelvis, com_pelvis, style)
+    com_pelvis = transformed(back, center_of_mass(robot, q).position)
+    base = np.tile(robot.placement, (len(gait), 1, 1)) if gait.base is None else gait.base
+    return place(gait, robot.angles(q), base, T_pelvis, com_pelvis, style, _EXOSKELETON)
 
 
-def stood(
-    gait: Gait, q: Array, given: Array, T_pelvis: Array, com_pelvis: Array, style: str, who: str = WHO
-) -> Placement:
+def place(
+    gait: Gait,
+    q: Array,
+    base: Array,
+    T_pelvis: Array,
+    com_pelvis: Array,
+    style: SupportStyle,
+    subject: str,
+) -> PlacedWalk:
     """Stand any walker on the ground.
 
     Args:
-        gait: Whose time and events the walk has.
+        gait: The walk: n times and events.
         q: `(n, J)` joint values in the order of `Robot.joints` [rad].
-        given: `(n, 4, 4)` pose of the pelvis (or root link) as given.
+        base: `(n, 4, 4)` pose of the pelvis (or root link) as given.
         T_pelvis: `(n, 10, 4, 4)` poses of `FEET` and `CORNERS` seen from there.
         com_pelvis: `(n, 3)` centre of mass seen from there [m].
-        style: How the pelvis is carried, one of `support.STYLES`.
-        who: Whom the note names.
+        style: How the pelvis is carried, one of `STYLES`.
+        subject: First words of the note on the support, e.g. `"The pelvis"`.
 
     Raises:
         UnknownNameError: There is no such style.
     """
-    corners = (given[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
-    known = stance.from_events(gait)
-    standing = known or stance.estimated(gait, stance.lowest_corners(corners))
-    carried = support(style, gait, given, corners, standing, who)
-    base = carried.base
-    shown = base[:, None] @ T_pelvis
-    return Placement(
+    corners = (base[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
+    known = stance_from_events(gait)
+    stance = known or estimated_stance(gait, lowest_corners(corners))
+    carried = support(style, gait, base, corners, stance, subject)
+    placed = carried.base[:, None] @ T_pelvis
+    return PlacedWalk(
         time=gait.time - gait.time[0],
         q=q,
-        base=base,
-        feet=shown[:, : len(FEET)],
-        corners=shown[:, len(FEET) :, :3, 3],
-        com=moved(base, com_pelvis),
-        stance=standing,
+        base=carried.base,
+        feet=placed[:, : len(FEET)],
+        corners=placed[:, len(FEET) :, :3, 3],
+        com=transformed(carried.base, com_pelvis),
+        stance=stance,
         estimated=known is None,
         support=carried,
     )
 
 
-def at_rest(robot: Robot, q: Array) -> Array:
+def toe_angles(body: Body, walk: PlacedWalk) -> dict[str, Array]:
+    """Toe angles `(n,)` [rad] by joint, toes up positive, that keep the tips out of the ground.
+
+    A gait has no toe angles. A toe of length L behind a ball at height h, on a foot that points down by an
+    angle a, reaches the ground where h = L sin(a - toe); it bends by what is beyond that.
+    """
+    angles = {}
+    for k, (side, joint) in enumerate(zip(SIDES, TOES, strict=True)):
+        leg = body.leg(side)
+        length = leg.foot_length - leg.heel - leg.ball
+        down = np.arcsin(np.clip(-walk.feet[:, k, 2, 0], -1.0, 1.0))
+        height = np.clip(lowest_corners(walk.corners)[side], 0.0, length)
+        angles[joint] = np.maximum(down - np.arcsin(height / length), 0.0)
+    return angles
+
+
+def transformed(T: NDArray[np.floating[Any]], points: Array) -> Array:
+    """Points `(..., 3)` by poses `(..., 4, 4)`."""
+    out: Array = (T[..., :3, :3] @ points[..., None])[..., 0] + T[..., :3, 3]
+    return out
+
+
+def _base_at_placement(robot: Robot, q: Array) -> Array:
     """Configurations with a floating base put back to its placement, so that all robots are treated alike."""
     q = q.copy()
     if robot.base == "floating":
         free = robot.nq - len(robot.joints)
         q[:, :free] = robot.neutral[:free]
     return q
-
-
-def moved(T: NDArray[np.floating[Any]], points: Array) -> Array:
-    """Points `(..., 3)` by poses `(..., 4, 4)`."""
-    out: Array = (T[..., :3, :3] @ points[..., None])[..., 0] + T[..., :3, 3]
-    return out

@@ -15,14 +15,14 @@ from exo_pin.gait import Gait
 from exo_pin.gait.event import SAME_TIME
 from exo_pin.gait.time_series import runs
 
-Intervals = dict[str, tuple[tuple[float, float], ...]]
+Intervals = Mapping[Side, tuple[tuple[float, float], ...]]
 """Side -> (from, to) [s] after the gait's first sample."""
 
-NEAR_GROUND = 0.010
+_NEAR_GROUND = 0.010
 """A foot whose lowest corner is this close to the lower foot's is taken to stand as well [m] (a choice)."""
 
 
-def from_events(gait: Gait) -> Intervals | None:
+def stance_from_events(gait: Gait) -> Intervals | None:
     """Stance of both feet from heel strikes and toe-offs, or None where the events do not tell."""
     try:
         for side in SIDES:
@@ -32,25 +32,34 @@ def from_events(gait: Gait) -> Intervals | None:
     return {side: _between(gait, side) for side in SIDES}
 
 
-def estimated(gait: Gait, heights: Mapping[str, Array]) -> Intervals:
+def estimated_stance(gait: Gait, heights: Mapping[Side, Array]) -> Intervals:
     """Stance guessed from heights: the lower foot stands, and the other if it is nearly as low.
 
     Args:
-        gait: Whose samples the heights belong to.
+        gait: The walk that the heights belong to, sample by sample.
         heights: Side -> `(n,)` height of the sole's lowest corner [m].
     """
     lowest = np.minimum(*(heights[side] for side in SIDES))
-    return {side: _runs(gait, heights[side] <= lowest + NEAR_GROUND) for side in SIDES}
+    return {side: _runs(gait, heights[side] <= lowest + _NEAR_GROUND) for side in SIDES}
 
 
-def lowest_corners(positions: Array) -> dict[str, Array]:
+def lowest_corners(positions: Array) -> dict[Side, Array]:
     """Side -> `(n,)` lowest height, from the positions `(n, 8, 3)` of `CORNERS` [m]."""
     mine = {side: [k for k, name in enumerate(CORNERS) if name.startswith(side)] for side in SIDES}
     return {side: positions[:, mine[side], 2].min(axis=1) for side in SIDES}
 
 
-def samples(intervals: Intervals, side: Side, time: Array) -> Mask:
-    """`(n,)` whether the side stands at times [s] after the gait's first sample."""
+def standing(intervals: Intervals, side: Side, time: Array) -> Mask:
+    """Whether a foot is on the ground.
+
+    Args:
+        intervals: Side -> (from, to) [s] after the gait's first sample.
+        side: `"left"` or `"right"`.
+        time: `(n,)` after the gait's first sample [s].
+
+    Returns:
+        `(n,)` contact.
+    """
     inside = np.zeros(len(time), dtype=bool)
     moment = time + SAME_TIME  # an event that is meant to lie on a sample may miss it by rounding
     for start, end in intervals[side]:
@@ -69,6 +78,6 @@ def _between(gait: Gait, side: Side) -> tuple[tuple[float, float], ...]:
     return tuple((a, b) for a, b in spans if b > a)
 
 
-def _runs(gait: Gait, standing: Mask) -> tuple[tuple[float, float], ...]:
+def _runs(gait: Gait, contact: Mask) -> tuple[tuple[float, float], ...]:
     time = np.r_[gait.time - gait.time[0], gait.duration]
-    return tuple((float(time[a]), float(time[b])) for a, b in runs(standing))
+    return tuple((float(time[a]), float(time[b])) for a, b in runs(contact))

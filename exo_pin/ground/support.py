@@ -14,32 +14,30 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import SIDES
-from exo_pin.arrays import Array
+from exo_pin.anatomy.names import Side, SupportStyle
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.gait.time_series import runs
-from exo_pin.ground.stance import Intervals, lowest_corners, samples
+from exo_pin.ground.stance import Intervals, lowest_corners, standing
 
-SOFTNESS = 0.003
+_SOFTNESS = 0.003
 """Height difference [m] over which the weight goes from one corner to the next: bounds the sinking."""
 
-BEARING = 0.006
+_BEARING = 0.006
 """The same for the corners that go with the belt: a rolling foot passes its weight on from heel to ball."""
 
-HARMONICS = 8
+_HARMONICS = 8
 """The pelvis's path keeps so many harmonics of the cycle: a support does not jerk (a choice)."""
 
-BANDWIDTH = 7.0
+_BANDWIDTH = 7.0
 """The same for recordings, and the least for long cycles [Hz]."""
 
-DEEPEST = 0.003
+DEEPEST_SINK = 0.003
 """No sole corner may sink further into the ground than this [m]."""
 
-WHO = "Balance support: the pelvis"
-"""Who is carried, in the exoskeleton's words; a humanoid has no support."""
-
-OVERGROUND = 0.6
-"""A pelvis that travels further than this [m] walks through the room; else it walks on a treadmill."""
+_OVERGROUND = 0.6
+"""A pelvis that travels further than this [m] walks over ground; else it walks on a treadmill."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +66,7 @@ class Support:
 
 
 def support(
-    style: str, gait: Gait, base: Array, corners: Array, stance: Intervals, who: str = WHO
+    style: SupportStyle, gait: Gait, base: Array, corners: Array, stance: Intervals, subject: str
 ) -> Support:
     """Carry the pelvis.
 
@@ -78,57 +76,57 @@ def support(
         base: `(n, 4, 4)` pose of the pelvis as given.
         corners: `(n, 8, 3)` positions of `CORNERS` with that base [m].
         stance: Side -> intervals on the ground.
-        who: What is carried, and by what: the note's first words.
+        subject: What is carried, and by what: the note's first words.
 
     Raises:
         UnknownNameError: There is no such style.
     """
     if style not in STYLES:
         raise UnknownNameError("support", style, STYLES)
-    overground = bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > OVERGROUND)
-    shift, said = STYLES[style](gait, corners, stance, overground)
+    overground = bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > _OVERGROUND)
+    shift, motion = STYLES[style](gait, corners, stance, overground)
     shown, feet = base.copy(), corners + shift[:, None]
     shown[:, :3, 3] += shift
     speed = 0.0 if overground else max(-float(_bearing_velocity(gait, feet)[:, 0].mean()), 0.0)
     numbers = _remains(gait, feet, stance)
-    return Support(shown, speed, overground, *numbers, f"{who} {said} {_words(*numbers)}")
+    return Support(shown, speed, overground, *numbers, f"{subject} {motion} {_words(*numbers)}")
 
 
 def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
-    z = _smooth(gait, -np.sum(_weights(corners, SOFTNESS) * corners[..., 2], axis=1))
-    z += max(-float((corners[..., 2] + z[:, None]).min()) - DEEPEST, 0.0)
+    z = _smooth(gait, -np.sum(_weights(corners, _SOFTNESS) * corners[..., 2], axis=1))
+    z += max(-float((corners[..., 2] + z[:, None]).min()) - DEEPEST_SINK, 0.0)
     rise = f"raised and lowered by {_mm(np.ptp(corners[..., 2].min(axis=1)))}"
     if overground:
         still = np.zeros(len(z))
-        said = f"is {rise} so that the soles stay on the ground."
-        return np.stack([still, still, z], axis=1), said
+        motion = f"is {rise} so that the soles stay on the ground."
+        return np.stack([still, still, z], axis=1), motion
     drift = _bearing_velocity(gait, corners)[:, :2]
     path = [_smooth(gait, _integral(gait, rate.mean() - rate)) for rate in drift.T]
     x, y = (line - line.mean() for line in path)
-    said = (
+    motion = (
         f"is {rise}, moved fore and aft by {_mm(np.ptp(x))} and sideways by "
         f"{_mm(np.ptp(y))}, so that the standing foot stays on the belt, which runs at "
         f"{round(-drift[:, 0].mean(), 2) + 0.0:.2f} m/s."
     )
-    return np.stack([x, y, z], axis=1), said
+    return np.stack([x, y, z], axis=1), motion
 
 
 def _still(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
     heights, time = lowest_corners(corners), gait.time - gait.time[0]
-    low = [heights[side][samples(stance, side, time)].min(initial=np.inf) for side in SIDES]
+    low = [heights[side][standing(stance, side, time)].min(initial=np.inf) for side in SIDES]
     shift = -min(low) if np.isfinite(min(low)) else -float(corners[..., 2].min())
-    said = (
+    motion = (
         f"moves as given, shifted by {1000 * shift:+.1f} mm up as a whole so "
         "that the lowest standing sole corner is on the ground."
     )
-    return np.tile([0.0, 0.0, shift], (len(gait), 1)), said
+    return np.tile([0.0, 0.0, shift], (len(gait), 1)), motion
 
 
-STYLES: dict[str, Callable[[Gait, Array, Intervals, bool], tuple[Array, str]]] = {
+STYLES: dict[SupportStyle, Callable[[Gait, Array, Intervals, bool], tuple[Array, str]]] = {
     "carried": _carried,
     "still": _still,
 }
-"""Name -> what moves the pelvis: its shift `(n, 3)` [m], and words."""
+"""Name -> how the pelvis is moved: its shift `(n, 3)` [m], and the predicate of the note."""
 
 
 def _weights(corners: Array, softness: float) -> Array:
@@ -146,7 +144,7 @@ def _bearing_velocity(gait: Gait, corners: Array) -> Array:
         velocity = (np.roll(flat, -1, axis=0) - np.roll(flat, 1, axis=0)) * len(gait) / (2 * gait.duration)
     else:
         velocity = np.asarray(np.gradient(flat, gait.time, axis=0))
-    bearing: Array = np.einsum("nc,nck->nk", _weights(corners, BEARING), velocity.reshape(corners.shape))
+    bearing: Array = np.einsum("nc,nck->nk", _weights(corners, _BEARING), velocity.reshape(corners.shape))
     return bearing
 
 
@@ -160,10 +158,10 @@ def _smooth(gait: Gait, values: Array) -> Array:
     """The low harmonics of a cycle, or of a recording continued by its point reflections at both ends."""
     if gait.periodic:
         cycles = sum((event.side, event.kind) == ("left", "heel_strike") for event in gait.events)
-        return _low(values, max(HARMONICS * cycles, HARMONICS, round(BANDWIDTH * gait.duration)))
+        return _low(values, max(_HARMONICS * cycles, _HARMONICS, round(_BANDWIDTH * gait.duration)))
     line = np.linspace(values[0], values[-1], len(values))
     odd = np.concatenate([values - line, -(values - line)[-2:0:-1]])
-    return line + _low(odd, max(round(2 * BANDWIDTH * gait.duration), 1))[: len(values)]
+    return line + _low(odd, max(round(2 * _BANDWIDTH * gait.duration), 1))[: len(values)]
 
 
 def _low(values: Array, harmonics: int) -> Array:
@@ -175,9 +173,9 @@ def _low(values: Array, harmonics: int) -> Array:
 def _remains(gait: Gait, feet: Array, stance: Intervals) -> tuple[float, float, float, float]:
     """Sink, hover, gap and slide of the shown feet [m]."""
     time = gait.time - gait.time[0]
-    left, right = (samples(stance, side, time) for side in SIDES)
+    left, right = (standing(stance, side, time) for side in SIDES)
     low = lowest_corners(feet)
-    single = {"left": left & ~right, "right": right & ~left}
+    single: dict[Side, Mask] = {"left": left & ~right, "right": right & ~left}
     hover = max(low[side][single[side]].max(initial=0.0) for side in SIDES)
     higher = np.maximum(low["left"], low["right"])
     sideways = _integral(gait, _bearing_velocity(gait, feet)[:, 1])

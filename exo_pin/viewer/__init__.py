@@ -12,23 +12,42 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exo_pin.viewer.live.server import Server, serve
-    from exo_pin.viewer.notebook import View, view
-    from exo_pin.viewer.page.export import html
-    from exo_pin.viewer.scenes.compiler import retargeted, scene
+    from exo_pin.viewer.page.export import bundle, html
+    from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
     from exo_pin.viewer.scenes.scene import Scene
+    from exo_pin.viewer.scenes.staging import SceneOptions
+    from exo_pin.viewer.views import View, retargeted, scene, view
 
-__all__ = ["Scene", "Server", "View", "html", "retargeted", "scene", "serve", "view"]
+__all__ = [
+    "Scene",
+    "SceneOptions",
+    "Server",
+    "View",
+    "bundle",
+    "exoskeleton_scene",
+    "html",
+    "retargeted",
+    "robot_scene",
+    "scene",
+    "serve",
+    "view",
+]
 
 _HOMES = {
     "Scene": "scenes.scene",
+    "SceneOptions": "scenes.staging",
     "Server": "live.server",
-    "View": "notebook",
+    "View": "views",
+    "bundle": "page.export",
+    "exoskeleton_scene": "scenes.compiler",
     "html": "page.export",
-    "retargeted": "scenes.compiler",
-    "scene": "scenes.compiler",
+    "retargeted": "views",
+    "robot_scene": "scenes.compiler",
+    "scene": "views",
     "serve": "live.server",
-    "view": "notebook",
+    "view": "views",
 }
+"""Name -> module that it is imported from when it is first used."""
 
 
 def __getattr__(name: str) -> Any:

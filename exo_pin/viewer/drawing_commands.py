@@ -14,8 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from exo_pin.arrays import Array
-
 Command = dict[str, Any]
 """One meshcat command: `type`, `path` and what belongs to the type."""
 
@@ -36,7 +34,7 @@ _UPRIGHT = [1.0, 0, 0, 0, 0, 0, 1.0, 0, 0, -1.0, 0, 0, 0, 0, 0, 1.0]
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface looks.
+    """The surface of a shape.
 
     Attributes:
         color: Red, green, blue and opacity, each from 0 to 1.
@@ -100,7 +98,13 @@ def sphere(radius: float) -> Shape:
 
 
 def mesh(vertices: ArrayLike, faces: ArrayLike, normals: ArrayLike | None = None) -> Shape:
-    """Triangles: vertices `(v, 3)` [m], faces `(f, 3)`, normals `(v, 3)` (smooth ones are made if absent)."""
+    """Triangles.
+
+    Args:
+        vertices: `(v, 3)` [m].
+        faces: `(f, 3)` rows of vertices.
+        normals: `(v, 3)`; three.js makes smooth ones if left out.
+    """
     attributes = {"position": _packed(np.round(np.asarray(vertices) / _GRAIN) * _GRAIN, "<f4")}
     if normals is not None:
         attributes["normal"] = _packed(np.round(np.asarray(normals) * 128) / 128, "<f4")
@@ -109,7 +113,14 @@ def mesh(vertices: ArrayLike, faces: ArrayLike, normals: ArrayLike | None = None
 
 
 def draw(path: str, shape: Shape, material: Material, *, order: int = 0) -> Command:
-    """Puts a shape at a path, replacing what was there; `order` sorts translucent things."""
+    """Puts a shape at a path, replacing what was there.
+
+    Args:
+        path: Node.
+        shape: Geometry.
+        material: Surface.
+        order: Rendering order: translucent things with a higher one are drawn later.
+    """
     return _object(path, "Mesh", shape, material.command(), {"renderOrder": order} if order else {})
 
 
@@ -118,6 +129,11 @@ def translucent(path: str, shape: Shape, color: tuple[float, float, float, float
 
     The shape is drawn twice: first into the depth buffer alone, then in colour where it is nearest, so that
     its inner parts and far sides stay hidden.
+
+    Args:
+        path: Node.
+        shape: Geometry.
+        color: Red, green, blue and opacity, each from 0 to 1.
     """
     depth = {"type": "MeshBasicMaterial", "color": 0, "transparent": True, "colorWrite": False, "side": 0}
     nearest = (("depthWrite", False), ("depthFunc", 3))  # three.js's "less or equal"
@@ -135,11 +151,18 @@ def translucent(path: str, shape: Shape, color: tuple[float, float, float, float
 
 
 def lines(path: str, points: ArrayLike, color: Sequence[float], opacity: float) -> Command:
-    """Separate thin lines: points `(2 k, 3)`, two a line [m]."""
+    """Separate thin lines.
+
+    Args:
+        path: Node.
+        points: `(2 k, 3)` ends, two a line [m].
+        color: Red, green, blue, each from 0 to 1.
+        opacity: 0 to 1.
+    """
     position = {"position": _packed(np.asarray(points), "<f4")}
     shape = Shape({"type": "BufferGeometry", "data": {"attributes": position}})
-    look = {"color": hexadecimal(color), "opacity": opacity, "transparent": True}
-    return _object(path, "LineSegments", shape, {"type": "LineBasicMaterial", **look}, {})
+    style = {"color": hexadecimal(color), "opacity": opacity, "transparent": True}
+    return _object(path, "LineSegments", shape, {"type": "LineBasicMaterial", **style}, {})
 
 
 def place(path: str, T: ArrayLike) -> Command:
@@ -149,15 +172,14 @@ def place(path: str, T: ArrayLike) -> Command:
 
 
 def setting(path: str, name: str, value: Any) -> Command:
-    """Sets a property of a node, e.g. `visible`."""
+    """Sets a property of a node.
+
+    Args:
+        path: Node.
+        name: Property as three.js names it, e.g. `"visible"`.
+        value: Plain value for JSON.
+    """
     return {"type": "set_property", "path": path, "property": name, "value": value}
-
-
-def translation(x: float, y: float, z: float) -> Array:
-    """`(4, 4)` pose without rotation [m]."""
-    T = np.eye(4)
-    T[:3, 3] = x, y, z
-    return T
 
 
 def _object(path: str, kind: str, shape: Shape, material: Command, extra: Command) -> Command:
@@ -176,7 +198,7 @@ def _object(path: str, kind: str, shape: Shape, material: Command, extra: Comman
 
 
 def _identifier(path: str) -> str:
-    """What three.js wants every part to have: ours comes from the path, not from chance."""
+    """The identifier that three.js wants for every part, made from the path instead of at random."""
     return f"{zlib.crc32(path.encode()):08x}"
 
 

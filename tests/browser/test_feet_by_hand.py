@@ -1,4 +1,4 @@
-"""Feet taken by the hand in a real browser: by mouse and keys, answered by Python or by the page itself."""
+"""Feet dragged in a real browser: by mouse and keys, answered by Python or by the page itself."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from exo_pin import viewer
 from exo_pin.anatomy import FEET
 from exo_pin.kinematics import poses
 from exo_pin.viewer.live import messages
-from exo_pin.viewer.live.foot_drag import TURN, reacher
+from exo_pin.viewer.live.foot_drag import ROTATION_WEIGHT, reach_solver
 
 SINGLE = 1e-6  # [m]: the page's base is float32
 EXACT = 2e-6  # [m, rad]: twice what "reached" promises, for each of the two
 NEAREST = 1e-4  # [m]: how well two iterative solvers agree on what remains out of reach
-LATENCY = 250.0  # [ms] from the question to the answer; measured 8 ms, but the browser draws in software
+LATENCY = 250.0  # [ms] from the request to the answer; measured 8 ms, but the browser draws in software
 SETTLED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
 HANDLE = (
     "(r => [r.x + r.width / 2, r.y + r.height / 2])"
-    "(document.querySelector('#grips button.{}').getBoundingClientRect())"
+    "(document.querySelector('#handles button.{}').getBoundingClientRect())"
 )
 STATUS = "document.getElementById('reach').textContent"
 LEFT = "exo.chains[0].matrices().left_foot"
@@ -53,7 +53,7 @@ def pose(browser, foot="left_foot"):
     return np.array(browser.evaluate(f"exo.chains[0].matrices().{foot}")).reshape(4, 4).T
 
 
-def pull(browser, *steps, shift=False):
+def drag_foot(browser, *steps, shift=False):
     """Take the left foot with the mouse and move it by pixels; it stays in the hand."""
     x, y = browser.evaluate(HANDLE.format("left"))
     down = {"button": "left", "buttons": 1, "modifiers": 8 if shift else 0}
@@ -62,7 +62,7 @@ def pull(browser, *steps, shift=False):
         browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + dx, y=y + dy, **down)
         browser.evaluate(SETTLED)
     browser.wait("!document.getElementById('reach').hidden")
-    browser.wait("!exo.transport.asked")
+    browser.wait("!exo.transport.pending")
     return x + steps[-1][0], y + steps[-1][1]
 
 
@@ -72,7 +72,7 @@ def release(browser, x, y):
 
 def test_a_foot_follows_the_mouse_and_keeps_its_attitude(still):
     before, other = pose(still), pose(still, "right_foot")
-    x, y = pull(still, (3, -4), (8, -10), (12, -16))
+    x, y = drag_foot(still, (3, -4), (8, -10), (12, -16))
     after = pose(still)
     handle = still.evaluate(HANDLE.format("left"))
     release(still, x, y)
@@ -92,30 +92,30 @@ def test_with_shift_a_foot_goes_along_the_ground(still):
     still.evaluate("exo.look('iso')")
     still.evaluate(SETTLED)
     before = pose(still)
-    release(still, *pull(still, (3, 1), (10, 5), shift=True))
+    release(still, *drag_foot(still, (3, 1), (10, 5), shift=True))
     moved = pose(still)[:3, 3] - before[:3, 3]
     assert moved[2] == pytest.approx(0, abs=EXACT)
     assert np.linalg.norm(moved) > 0.03
 
 
 def test_out_of_reach_the_nearest_pose_is_shown_with_what_is_missing(still):
-    x, y = pull(still, (-60, -20), (-150, -60), (-240, -90))
-    said = still.evaluate(STATUS)
-    place = still.evaluate("exo.grips.held.target.place.toArray()")  # y up in there
+    x, y = drag_foot(still, (-60, -20), (-150, -60), (-240, -90))
+    content = still.evaluate(STATUS)
+    place = still.evaluate("exo.handles.held.target.place.toArray()")  # y up in there
     target = np.array([place[0], -place[2], place[1]])
     missing = np.linalg.norm(pose(still)[:3, 3] - target)
-    assert "out of reach" in said
-    assert f"{1000 * missing:.0f} mm" in said
-    assert still.evaluate("document.querySelector('#grips button.left').classList.contains('short')")
+    assert "out of reach" in content
+    assert f"{1000 * missing:.0f} mm" in content
+    assert still.evaluate("document.querySelector('#handles button.left').classList.contains('short')")
     assert (
-        still.evaluate("document.querySelector('#grips div.left').offsetWidth") > 20
+        still.evaluate("document.querySelector('#handles div.left').offsetWidth") > 20
     )  # the line between them
     release(still, x, y)
 
 
 def test_the_keyboard_moves_a_foot_by_a_centimetre_and_escape_lets_go(still):
     start = pose(still)
-    still.evaluate("document.querySelector('#grips button.left').focus()")
+    still.evaluate("document.querySelector('#handles button.left').focus()")
     for count in (1, 2, 3):
         still.press("ArrowUp")
         still.wait(f"Math.abs({LEFT}[14] - {start[2, 3]} - {0.01 * count}) < 1e-3")
@@ -126,7 +126,7 @@ def test_the_keyboard_moves_a_foot_by_a_centimetre_and_escape_lets_go(still):
 
 
 def test_playing_resumes_the_walk(still):
-    release(still, *pull(still, (30, -30)))
+    release(still, *drag_foot(still, (30, -30)))
     assert still.evaluate("exo.byHand") is True
     aside = "document.getElementById('plots').classList.contains('aside')"
     assert still.evaluate(aside) is True  # the curves are not what is shown
@@ -145,7 +145,7 @@ def test_the_hand_starts_from_the_pose_of_the_sliders_and_moves_them(still):
     still.evaluate(f"(r => {{ r.value = 1; r.dispatchEvent(new Event('input')); }})({right})")
     still.evaluate(SETTLED)
     before = still.evaluate(f"Number({left}.value)")
-    release(still, *pull(still, (0, -40)))
+    release(still, *drag_foot(still, (0, -40)))
     assert still.evaluate(f"Number({right}.value)") == pytest.approx(1, abs=EXACT * 100)
     assert still.evaluate(f"Number({left}.value)") > before + 0.05
     still.evaluate("document.querySelectorAll('#tabs button')[0].click()")
@@ -155,8 +155,8 @@ def test_python_answers_the_live_page_soon(browser, live):
     browser.open(live.url)
     browser.evaluate("exo.seek(0.3)")
     browser.evaluate(SETTLED)
-    release(browser, *pull(browser, (10, -10), (20, -20)))
-    assert browser.evaluate("exo.transport.count") > 0  # it was asked
+    release(browser, *drag_foot(browser, (10, -10), (20, -20)))
+    assert browser.evaluate("exo.transport.count") > 0  # a request was sent
     assert browser.evaluate("exo.transport.latency") < LATENCY
 
 
@@ -166,13 +166,13 @@ def test_the_page_answers_itself_where_python_is_gone(browser, scene):
         browser.evaluate("exo.seek(0.3)")
         browser.evaluate(SETTLED)
     browser.wait("!exo.transport.open")
-    release(browser, *pull(browser, (10, -20)))
+    release(browser, *drag_foot(browser, (10, -20)))
     assert browser.evaluate(STATUS) == "left foot reached"
 
 
 def test_the_pages_inverse_kinematics_is_pythons(page, robot, gait, scene, rng):
     names = [joint.name for joint in scene.facts.chains[0].joints]
-    answer = reacher(robot, names)
+    answer = reach_solver(robot, names)
     gait_q = robot.from_gait(gait)
     far = 0
     for k in range(0, 100, 4):
@@ -180,15 +180,15 @@ def test_the_pages_inverse_kinematics_is_pythons(page, robot, gait, scene, rng):
         T[0, :3, 3] += rng.normal(0, 0.12, 3)
         feet = {foot: pin.SE3ToXYZQUAT(pin.SE3(M)).tolist() for foot, M in zip(FEET, T, strict=True)}
         q = [float(gait_q[k][robot.column(name)]) for name in names]
-        said = {"type": "reach", "id": 0, "feet": feet, "q": q}
-        mine = page.evaluate(f"(exo.apply(), exo.reach.answer({json.dumps(said)}))")
-        python = answer(messages.wish(said, scene.facts))
-        assert np.shape(mine["q"]) == np.shape(python["q"])
-        misses = np.array([[each["misses"][foot] for foot in feet] for each in (mine, python)])
-        mine_off, python_off = np.hypot(misses[..., 0], TURN * misses[..., 1])
+        content = {"type": "reach", "id": 0, "feet": feet, "q": q}
+        mine = page.evaluate(f"(exo.apply(), exo.reach.answer({json.dumps(content)}))")
+        python = answer(messages.reach_request(content, scene.facts))
+        assert np.shape(mine["q"]) == np.shape(python.q)
+        misses = np.array([[each[foot] for foot in feet] for each in (mine["misses"], python.misses)])
+        mine_off, python_off = np.hypot(misses[..., 0], ROTATION_WEIGHT * misses[..., 1])
         assert mine_off == pytest.approx(python_off, abs=NEAREST)
         if misses.any():
             far += 1
         else:
-            assert mine["q"] == pytest.approx(python["q"], abs=1e-4)
+            assert mine["q"] == pytest.approx(python.q, abs=1e-4)
     assert 3 < far < 22  # both kinds were tried

@@ -42,7 +42,7 @@ def test_the_live_page_has_the_same_forward_kinematics(browser, server, robot, g
 def test_a_pose_from_python_is_shown_at_once(browser, server, robot, rng):
     browser.open(server.url)
     q = rng.uniform(robot.lower, robot.upper)
-    names = [turn.name for turn in linkage(robot.urdf, "/x").turns]
+    names = [joint.name for joint in linkage(robot.urdf, "/x").joints]
     base = [0.1, 0.2, 1.3, 0, 0, 0, 1]
     server.pose([q[robot.joints.index(name)] for name in names], base)
     browser.wait("Math.abs(exo.chains[0].root.position.z - 1.3) < 1e-3")
@@ -68,7 +68,7 @@ def test_another_scene_replaces_the_first(browser, server, robot, gait):
 def test_a_reopened_browser_resumes(browser, server):
     browser.open(server.url)
     browser.evaluate("exo.seek(0.4321); exo.setSpeed(0.25); exo.look('feet')")
-    browser.wait("JSON.parse(exo.transport.said || '{}').view === 'feet'")  # it reports twice a second
+    browser.wait("JSON.parse(exo.transport.reported || '{}').view === 'feet'")  # it reports twice a second
     end = time.monotonic() + PATIENCE
     while (server.state or {}).get("view") != "feet" and time.monotonic() < end:
         time.sleep(0.01)

@@ -18,7 +18,6 @@ from exo_pin import cache, viewer
 from exo_pin.cli import last_picture
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.page.bundle import bundle
 
 PATIENCE = 30.0  # [s]: what a busy machine may take
 
@@ -78,7 +77,7 @@ def free_port():
 def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, monkeypatch, free_port):
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
     mine = ("--port", str(free_port), "--no-wearer")
-    older = bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
+    older = viewer.bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
     last_picture.keep(words(*mine), older)
     with replaying(tmp_path, *mine) as process:
         first, second = first_messages(free_port, 2)

@@ -9,9 +9,8 @@ from exo_pin import viewer
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, Gait, normative_gait
-from exo_pin.ground import stance
-from exo_pin.ground.placement import motion
-from exo_pin.ground.support import DEEPEST, support
+from exo_pin.ground import DEEPEST_SINK, lowest_corners, place_walk, support
+from exo_pin.ground import standing as standing_between
 from exo_pin.retarget import retarget
 from exo_pin.robot import load_robot
 
@@ -29,7 +28,7 @@ def robot():
 
 
 def standing(shown, side):
-    return stance.samples(shown.stance, side, shown.time)
+    return standing_between(shown.stance, side, shown.time)
 
 
 @pytest.mark.parametrize(("side", "first"), [("left", 0), ("right", 4)])
@@ -42,16 +41,23 @@ def test_the_slide_of_either_foot_is_measured_while_it_stands_alone(side, first)
     corners[:, first : first + 4, 2] = 0.0
     corners[:, first : first + 4, 1] = 0.03 * np.clip(time - 0.5, 0.0, 1.0)[:, None]
     other = "right" if side == "left" else "left"
-    found = support("still", gait, np.tile(np.eye(4), (201, 1, 1)), corners, {side: ((0.5, 1.5),), other: ()})
+    found = support(
+        "still",
+        gait,
+        np.tile(np.eye(4), (201, 1, 1)),
+        corners,
+        {side: ((0.5, 1.5),), other: ()},
+        "The pelvis",
+    )
     assert found.slide == pytest.approx(0.03, rel=0.03)
 
 
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_no_corner_sinks_and_the_standing_foot_touches(robot, speed):
-    shown = motion(robot, normative_gait(speed))
-    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    shown = place_walk(robot, normative_gait(speed))
+    assert shown.corners[..., 2].min() >= -DEEPEST_SINK - 1e-9
     left, right = standing(shown, "left"), standing(shown, "right")
-    low = stance.lowest_corners(shown.corners)
+    low = lowest_corners(shown.corners)
     assert low["left"][left & ~right].max() < TOUCH
     assert low["right"][right & ~left].max() < TOUCH
 
@@ -59,7 +65,7 @@ def test_no_corner_sinks_and_the_standing_foot_touches(robot, speed):
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_the_pelvis_is_carried_smoothly_and_not_far(robot, speed):
     gait = normative_gait(speed)
-    shown = motion(robot, gait)
+    shown = place_walk(robot, gait)
     path = np.vstack([shown.base[:, :3, 3]] * 2)
     acceleration = np.diff(path, 2, axis=0) / (gait.duration / len(gait)) ** 2
     assert np.abs(acceleration).max() < SMOOTH
@@ -70,7 +76,7 @@ def test_the_pelvis_is_carried_smoothly_and_not_far(robot, speed):
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_the_pelvis_sways_to_the_standing_leg_so_that_its_foot_does_not_slide(robot, speed):
     gait = normative_gait(speed)
-    shown = motion(robot, gait)
+    shown = place_walk(robot, gait)
     left, right = standing(shown, "left"), standing(shown, "right")
     sway = shown.base[:, 1, 3] - shown.base[:, 1, 3].mean()
     assert sway[left & ~right].mean() > 0.005 > -0.005 > sway[right & ~left].mean()
@@ -85,7 +91,7 @@ def test_the_pelvis_sways_to_the_standing_leg_so_that_its_foot_does_not_slide(ro
 @pytest.mark.parametrize("speed", ["slow", "free", "fast"])
 def test_the_flat_standing_foot_goes_with_the_belt(robot, speed):
     gait = normative_gait(speed)
-    shown = motion(robot, gait)
+    shown = place_walk(robot, gait)
     x = shown.corners[:, :4, 0].mean(axis=1)
     flat = (
         standing(shown, "left") & ~standing(shown, "right") & (np.ptp(shown.corners[:, :4, 2], axis=1) < 0.01)
@@ -96,28 +102,28 @@ def test_the_flat_standing_foot_goes_with_the_belt(robot, speed):
 
 
 def test_the_belt_runs_as_fast_as_people_walk(robot):
-    speeds = [motion(robot, normative_gait(speed)).support.belt_speed for speed in SPEEDS]
+    speeds = [place_walk(robot, normative_gait(speed)).support.belt_speed for speed in SPEEDS]
     assert speeds == sorted(speeds)
     assert 1.0 < speeds[SPEEDS.index("free")] < 1.5
 
 
 def test_the_rotation_of_the_pelvis_stays_the_gaits_own(robot):
     gait = normative_gait()
-    assert np.array_equal(motion(robot, gait).base[:, :3, :3], gait.base[:, :3, :3])
+    assert np.array_equal(place_walk(robot, gait).base[:, :3, :3], gait.base[:, :3, :3])
 
 
 def test_a_still_support_moves_the_walk_as_a_whole(robot):
     gait = normative_gait()
-    shown = motion(robot, gait, "still")
+    shown = place_walk(robot, gait, "still")
     moved = shown.base[:, :3, 3] - gait.base[:, :3, 3]
     assert np.ptp(moved, axis=0) == pytest.approx(0, abs=1e-12)
     assert shown.corners[..., 2].min() == pytest.approx(0, abs=1e-9)
 
 
 def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
-    shown = motion(robot, normative_gait())
+    shown = place_walk(robot, normative_gait())
     both = standing(shown, "left") & standing(shown, "right")
-    low = stance.lowest_corners(shown.corners)
+    low = lowest_corners(shown.corners)
     assert shown.support.gap == pytest.approx(np.maximum(low["left"], low["right"])[both].max())
     assert shown.support.sink == pytest.approx(-shown.corners[..., 2].min())
     for number in (shown.support.gap, shown.support.sink, shown.support.slide, shown.support.hover):
@@ -126,7 +132,7 @@ def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
 
 def test_a_longer_walk_is_carried_as_its_cycle_is(robot):
     gait = normative_gait()
-    once, often = motion(robot, gait), motion(robot, gait.repeated(20))
+    once, often = place_walk(robot, gait), place_walk(robot, gait.repeated(20))
     assert often.base == pytest.approx(np.tile(once.base, (20, 1, 1)), abs=1e-9)
     for number in ("belt_speed", "sink", "hover", "gap", "slide"):
         assert getattr(often.support, number) == pytest.approx(getattr(once.support, number), abs=1e-9)
@@ -137,35 +143,35 @@ def test_a_walk_through_the_room_keeps_its_way_and_gets_its_height(robot):
     base = gait.base.copy()
     base[:, 0, 3] += 1.2 * gait.time
     away = Gait(gait.time, gait.q, base=base, events=gait.events)
-    shown = motion(robot, away)
+    shown = place_walk(robot, away)
     assert shown.support.overground
     assert shown.support.belt_speed == 0
     assert np.array_equal(shown.base[:, :2, 3], base[:, :2, 3])
-    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    assert shown.corners[..., 2].min() >= -DEEPEST_SINK - 1e-9
 
 
 def test_a_walk_without_base_and_events_is_carried_too(robot):
     gait = replace(normative_gait(), base=None, events=())
-    shown = motion(robot, gait)
-    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    shown = place_walk(robot, gait)
+    assert shown.corners[..., 2].min() >= -DEEPEST_SINK - 1e-9
 
 
 def test_a_recording_is_carried(robot, shared):
     gait = load_gait(shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot")
-    shown = motion(robot, gait)
-    assert shown.corners[..., 2].min() >= -DEEPEST - 1e-9
+    shown = place_walk(robot, gait)
+    assert shown.corners[..., 2].min() >= -DEEPEST_SINK - 1e-9
     assert 0.8 < shown.support.belt_speed < 1.8
     assert np.abs(np.diff(shown.base[:, :3, 3], 2, axis=0)).max() / np.diff(gait.time)[0] ** 2 < 2 * SMOOTH
 
 
 def test_an_unknown_support_is_refused_with_a_hint(robot):
     with pytest.raises(UnknownNameError, match="carried"):
-        motion(robot, normative_gait(), "caried")
+        place_walk(robot, normative_gait(), "caried")
 
 
 def test_the_note_names_a_support_only_where_there_is_one(robot):
     gait = normative_gait()
-    assert motion(robot, gait).support.note.startswith("Balance support: the pelvis is raised")
+    assert place_walk(robot, gait).support.note.startswith("Balance support: the pelvis is raised")
     walk = viewer.retargeted(retarget(gait, "bolt"))
     assert any(note.startswith("The pelvis is raised") for note in walk.facts.notes)
     assert not any("Balance support" in note for note in walk.facts.notes)

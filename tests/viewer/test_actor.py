@@ -8,9 +8,9 @@ import pytest
 
 from exo_pin import viewer
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.ground import aligned
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
-from exo_pin.viewer.scenes.actor import aligned
 
 SAME = 1e-9  # resampling a band-limited cycle on its own samples changes rounding only
 
@@ -87,8 +87,8 @@ def test_toes_bend_as_far_as_the_ground_demands_and_no_further():
     (chain,) = [chain for chain in scene.facts.chains if chain.name == "exo"]
     base = np.array([pin.XYZQUATToSE3(row.astype(float)).homogeneous for row in scene.arrays["base"]])
     q = np.tile(robot.neutral, (len(gait), 1))
-    for k, turn in enumerate(chain.joints):
-        q[:, robot.column(turn.name)] = scene.arrays["q"][:, k]
+    for k, joint in enumerate(chain.joints):
+        q[:, robot.column(joint.name)] = scene.arrays["q"][:, k]
     leg = robot.body.leg("left")
     length = leg.foot_length - leg.heel - leg.ball
     tip = np.array([length, 0.0, 0.0, 1.0])

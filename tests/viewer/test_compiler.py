@@ -13,7 +13,7 @@ from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
 from exo_pin.viewer.scenes.actor import flat_poses
-from exo_pin.viewer.scenes.world import TRACE_ERROR, TRACE_MOST
+from exo_pin.viewer.scenes.world import TRACE_ERROR, TRACE_POINTS
 
 SINGLE = 2e-7  # float32 keeps seven digits of numbers near 1
 MILLIMETRE = 1e-3
@@ -41,8 +41,8 @@ def shown_base(scene):
 
 def test_angles_arrive_under_their_joints_name(robot, gait, scene):
     (chain,) = [c for c in scene.facts.chains if c.name == "exo"]
-    for k, turn in enumerate(chain.joints):
-        assert np.abs(scene.arrays["q"][:, k] - gait.q[:, JOINTS.index(turn.name)]).max() < SINGLE
+    for k, joint in enumerate(chain.joints):
+        assert np.abs(scene.arrays["q"][:, k] - gait.q[:, JOINTS.index(joint.name)]).max() < SINGLE
 
 
 def test_the_plots_show_the_gaits_own_clinical_angles(gait):
@@ -140,7 +140,7 @@ def test_long_recordings_have_thin_traces_that_follow_every_stride(robot, gait):
     (path,) = [c for c in scene.commands if c["path"].endswith("traces/left")]
     packed = path["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
     vertices = np.frombuffer(packed.data, np.float32).reshape(-1, 8, 3)
-    assert len(vertices) <= TRACE_MOST
+    assert len(vertices) <= TRACE_POINTS
     drawn = vertices.mean(axis=1)
     feet = poses(robot, robot.from_gait(strides), FEET, base=shown_base(scene))[:, 0, :3, 3]
     ends, starts = drawn[1:], drawn[:-1]

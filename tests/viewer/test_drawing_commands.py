@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from exo_pin.viewer import drawing_commands
 from exo_pin.viewer.drawing_commands import Material
+from exo_pin.viewer.meshes.solids import translation
 
 GRAIN = 2e-5  # [m]: vertices are rounded, so that they compress
 
@@ -46,7 +47,7 @@ def test_a_cylinder_stands_along_z():
 
 
 def test_a_placement_is_written_column_by_column():
-    T = drawing_commands.translation(1, 2, 3)
+    T = translation(1, 2, 3)
     assert drawing_commands.place("/a", T)["matrix"][12:15] == [1, 2, 3]
 
 

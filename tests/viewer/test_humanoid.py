@@ -1,4 +1,4 @@
-"""Robots on the stage: their feet on the belt, their meshes, curves and sliders, whoever they are."""
+"""Other robots in the viewer: their feet on the belt, their meshes, curves and sliders."""
 
 import numpy as np
 import pinocchio as pin
@@ -11,12 +11,14 @@ from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.retarget import TARGETS, load, retarget
 from exo_pin.robot import load_urdf
-from exo_pin.viewer.live.foot_drag import reacher
-from exo_pin.viewer.live.messages import Wish
-from exo_pin.viewer.scenes.appearance import dressed
-from exo_pin.viewer.scenes.humanoid import humanoid
+from exo_pin.viewer.live.foot_drag import reach_solver
+from exo_pin.viewer.live.messages import ReachRequest
+from exo_pin.viewer.meshes.urdf_meshes import ThinnedFiles
+from exo_pin.viewer.scenes.appearance import robot_linkage
+from exo_pin.viewer.scenes.humanoid import stage_robot
 from exo_pin.viewer.scenes.joint_plots import groups
 from exo_pin.viewer.scenes.soles import soles
+from exo_pin.viewer.scenes.staging import SceneOptions
 
 GAIT = normative_gait().resampled(40)
 SINGLE = 1e-6  # [m]: float32 keeps seven digits
@@ -27,32 +29,32 @@ NAMES = list(TARGETS)
 
 
 @pytest.fixture(scope="module")
-def plays():
-    return {name: humanoid(retarget(GAIT, name)) for name in NAMES}
+def stagings():
+    return {name: stage_robot(retarget(GAIT, name), SceneOptions()) for name in NAMES}
 
 
-def drawn(play):
-    return [command for command in play.actors[0].commands if command["type"] == "set_object"]
+def drawn(staging):
+    return [command for command in staging.actors[0].commands if command["type"] == "set_object"]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_its_feet_stand_on_the_belt_and_do_not_sink(plays, name):
-    shown = plays[name].shown
-    heights = shown.corners[..., 2]
+def test_its_feet_stand_on_the_belt_and_do_not_sink(stagings, name):
+    walk = stagings[name].walk
+    heights = walk.corners[..., 2]
     assert heights.min() > -DEEPEST
     lowest = heights.min(axis=1)
     assert lowest.max() < 0.02  # one foot is always at the ground
-    assert shown.support.belt_speed > 0.3
-    scaled = 0.5 * (shown.feet[:, 0, :3, 3] + shown.feet[:, 1, :3, 3])[:, 2]
-    assert shown.base[:, 2, 3].mean() > scaled.mean()
+    assert walk.support.belt_speed > 0.3
+    scaled = 0.5 * (walk.feet[:, 0, :3, 3] + walk.feet[:, 1, :3, 3])[:, 2]
+    assert walk.base[:, 2, 3].mean() > scaled.mean()
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_sole_lies_level_under_its_ankle_with_the_heel_behind_and_the_inner_side_within(name):
-    machine = load(name)
-    tree, _ = dressed(machine, "/x", None)
-    left, right = soles(machine, tree.shapes)
-    for sole, leg, inwards in ((left, machine.legs[0], -1), (right, machine.legs[1], 1)):
+    biped = load(name)
+    tree, _ = robot_linkage(biped, "/x", None, ThinnedFiles())
+    left, right = soles(biped, tree.shapes)
+    for sole, leg, inwards in ((left, biped.legs[0], -1), (right, biped.legs[1], 1)):
         placed = leg.T @ sole.T  # standing, in the walker's axes
         assert placed[:3, :3] == pytest.approx(np.eye(3), abs=1e-9)
         assert placed[:2, 3] == pytest.approx(leg.ankle[:2], abs=1e-9)
@@ -68,13 +70,13 @@ def test_a_sole_lies_level_under_its_ankle_with_the_heel_behind_and_the_inner_si
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_all_its_visuals_are_drawn_in_little_room(plays, name):
-    play = plays[name]
-    assert not any("not drawn" in note for note in play.notes)
-    assert drawn(play)
+def test_all_its_visuals_are_drawn_in_little_room(stagings, name):
+    staging = stagings[name]
+    assert not any("not drawn" in note for note in staging.notes)
+    assert drawn(staging)
     size = sum(
         len(part["array"].data)
-        for command in drawn(play)
+        for command in drawn(staging)
         for part in command["object"]["geometries"][0]["data"]["attributes"].values()
     )
     assert 1e4 < size < 5e6
@@ -86,11 +88,11 @@ def test_the_largest_offline_page_stays_reasonable():
 
 def test_collada_files_with_y_up_are_turned_where_that_fits_the_joints():
     """iCub's are made for tools that turn them: its shank's mesh then reaches to the ankle."""
-    machine = load("icub")
-    tree, meshes = dressed(machine, "/x", None)
+    biped = load("icub")
+    tree, meshes = robot_linkage(biped, "/x", None, ThinnedFiles())
     assert meshes.y_up
     assert meshes.turned
-    T_shank, T_ankle = poses(machine.robot, machine.stand, ("l_lower_leg", "l_ankle_pitch"))
+    T_shank, T_ankle = poses(biped.robot, biped.stand, ("l_lower_leg", "l_ankle_pitch"))
     ankle = np.linalg.inv(T_shank) @ T_ankle[:, 3]
     mesh = tree.shapes["l_lower_leg"].vertices
     assert (mesh.min(axis=0) - 0.02 < ankle[:3]).all()
@@ -98,48 +100,48 @@ def test_collada_files_with_y_up_are_turned_where_that_fits_the_joints():
 
 
 @pytest.mark.parametrize("name", BARE)
-def test_capsules_and_plates_stand_for_what_has_no_looks(plays, name):
-    play = plays[name]
-    paths = {command["path"] for command in drawn(play)}
-    chain = play.actors[0].chain
+def test_capsules_and_plates_stand_for_links_without_visuals(stagings, name):
+    staging = stagings[name]
+    paths = {command["path"] for command in drawn(staging)}
+    chain = staging.actors[0].chain
     for leg in load(name).legs:
         assert f"{chain.links[leg.foot]}/plate" in paths
     assert sum(path.endswith("/look/0") for path in paths) >= 6  # both thighs, shanks and arms
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_plots_and_sliders_are_those_of_its_leg_joints_with_their_limits(plays, name):
-    play, machine = plays[name], load(name)
-    per_leg = len(machine.legs[0].joints)
+def test_plots_and_sliders_are_those_of_its_leg_joints_with_their_limits(stagings, name):
+    staging, biped = stagings[name], load(name)
+    per_leg = len(biped.legs[0].joints)
     for tab, lower, upper in zip(
-        groups(play.tabs), (machine.robot.lower, -machine.robot.velocity), (machine.robot.upper, None),
+        groups(staging.tabs), (biped.robot.lower, -biped.robot.velocity), (biped.robot.upper, None),
         strict=True,
     ):  # fmt: skip
         assert len(tab.plots) == per_leg
         for plot in tab.plots:
             assert [series.side for series in plot.series] == ["left", "right"]
             for series in plot.series:
-                k = machine.robot.joints.index(machine.joints[series.column])
+                k = biped.robot.joints.index(biped.joints[series.column])
                 assert series.lower == pytest.approx(max(lower[k], -1e6))
                 if upper is not None:
                     assert series.upper == pytest.approx(upper[k])
-    sliders = [turn for turn in play.actors[0].chain.joints if turn.limits is not None]
-    assert {turn.name for turn in sliders} == set(machine.joints)
-    assert {turn.side for turn in sliders} == {"left", "right"}
+    sliders = [joint for joint in staging.actors[0].chain.joints if joint.limits is not None]
+    assert {joint.name for joint in sliders} == set(biped.joints)
+    assert {joint.side for joint in sliders} == {"left", "right"}
 
 
-def test_plots_say_what_a_joint_is_in_a_person(plays):
-    titles = [plot.title for plot in groups(plays["talos"].tabs)[0].plots]
+def test_plots_say_what_a_joint_is_in_a_person(stagings):
+    titles = [plot.title for plot in groups(stagings["talos"].tabs)[0].plots]
     assert titles[:4] == ["Leg 1 (hip rotation)", "Leg 2 (hip adduction)", "Leg 3 (hip flexion)",
                           "Leg 4 (knee flexion)"]  # fmt: skip
 
 
-def test_notes_say_what_is_missed_whose_looks_they_are_and_how_deep_long_feet_dip(plays):
-    said = {name: " ".join(play.notes) for name, play in plays.items()}
-    assert "Apache-2.0" in said["talos"]
-    assert "BSD" not in said["simple_humanoid"]  # nothing of its files is shown
-    assert "below the ground" in said["romeo"]
-    assert "degrees at most" in said["bolt"]
+def test_notes_say_what_is_missed_whose_meshes_they_are_and_how_deep_long_feet_dip(stagings):
+    notes = {name: " ".join(staging.notes) for name, staging in stagings.items()}
+    assert "Apache-2.0" in notes["talos"]
+    assert "BSD" not in notes["simple_humanoid"]  # nothing of its files is shown
+    assert "below the ground" in notes["romeo"]
+    assert "degrees at most" in notes["bolt"]
 
 
 def test_a_robot_from_load_urdf_is_shown_as_it_is():
@@ -165,21 +167,21 @@ def test_a_second_walk_is_a_ghost_of_the_same_robot():
 
 
 @pytest.mark.parametrize("name", ["talos", "g1"])
-def test_its_feet_can_be_taken_by_the_hand(plays, name):
-    play = plays[name]
-    chain = play.actors[0].chain
-    names = [turn.name for turn in chain.joints]
-    q = play.robot.q(dict(zip(names, play.actors[0].arrays["q"][7], strict=True)))
-    feet = {grip.link: poses(play.robot, q, [grip.link])[0] for grip in play.grips}
-    start = [q[play.robot.column(joint)] for joint in names]
-    wish = {link: tuple(pin.SE3ToXYZQUAT(pin.SE3(T))) for link, T in feet.items()}
-    answer = reacher(play.robot, names)(Wish(1, wish, tuple(start)))
-    assert answer["misses"] == {link: [0.0, 0.0] for link in feet}
-    assert play.grips[0].side == "left"
+def test_its_feet_can_be_dragged(stagings, name):
+    staging = stagings[name]
+    chain = staging.actors[0].chain
+    names = [joint.name for joint in chain.joints]
+    q = staging.robot.q(dict(zip(names, staging.actors[0].arrays["q"][7], strict=True)))
+    feet = {handle.link: poses(staging.robot, q, [handle.link])[0] for handle in staging.handles}
+    start = [q[staging.robot.column(joint)] for joint in names]
+    targets = {link: tuple(pin.SE3ToXYZQUAT(pin.SE3(T))) for link, T in feet.items()}
+    answer = reach_solver(staging.robot, names)(ReachRequest(1, targets, tuple(start)))
+    assert answer.misses == dict.fromkeys(feet, (0.0, 0.0))
+    assert staging.handles[0].side == "left"
 
 
-def test_point_feet_are_not_offered_to_the_hand(plays):
-    assert plays["bolt"].grips == ()
+def test_point_feet_have_no_handles(stagings):
+    assert stagings["bolt"].handles == ()
 
 
 def test_replay_writes_a_page_of_a_robot_of_one_s_own(tmp_path, capsys):

@@ -19,11 +19,11 @@ URDF = """<robot name="r"><material name="m"><color rgba="0.1 0.2 0.3 1"/></mate
 
 
 def nested_pose(tree, path, q):
-    """The pose that the page will find: the product of the placements and turns along a node's path."""
+    """The pose that the page will find: the product of the placements and rotations along a node's path."""
     placed = {
         c["path"]: np.reshape(c["matrix"], (4, 4)).T for c in tree.commands if c["type"] == "set_transform"
     }
-    turned = {turn.path: turn for turn in tree.turns}
+    turned = {joint.path: joint for joint in tree.joints}
     T = np.eye(4)
     names = path.removeprefix(tree.root).split("/")
     for k in range(1, len(names)):
@@ -57,15 +57,15 @@ def test_every_link_of_the_robot_has_a_node_of_its_own():
     tree = linkage(robot.urdf, "/exo")
     assert set(tree.links) == set(robot.frames)
     assert len(set(tree.links.values())) == len(tree.links)
-    assert {turn.name for turn in tree.turns} == set(robot.joints)
+    assert {joint.name for joint in tree.joints} == set(robot.joints)
 
 
 def test_colours_stay_those_of_the_urdf():
     tree = linkage(URDF, "/x")
-    (look,) = [
+    (material,) = [
         c["object"]["materials"][0] for c in tree.commands if c["path"] == "/x/look/0" and "object" in c
     ]
-    assert look["color"] == round(0.1 * 255) << 16 | round(0.2 * 255) << 8 | round(0.3 * 255)
+    assert material["color"] == round(0.1 * 255) << 16 | round(0.2 * 255) << 8 | round(0.3 * 255)
 
 
 def test_meshes_are_counted_not_silently_dropped():
@@ -77,8 +77,8 @@ def test_names_with_slashes_do_not_break_the_tree():
 
 
 def test_axes_are_normalised_and_sliding_joints_known():
-    (turn,) = linkage(URDF, "/x").turns
-    assert (turn.kind, turn.axis) == ("prismatic", (0.0, 0.0, 1.0))
+    (joint,) = linkage(URDF, "/x").joints
+    assert (joint.kind, joint.axis) == ("prismatic", (0.0, 0.0, 1.0))
 
 
 @pytest.mark.parametrize(

@@ -251,10 +251,10 @@ def test_mirrored_meshes_keep_their_outside_outside(tmp_path):
         assert volume(solid.vertices, solid.faces) == pytest.approx(0.006 * abs(np.prod(scale)), rel=0.05)
 
 
-def test_too_many_triangles_are_left_away_and_said(tmp_path, monkeypatch):
+def test_too_many_triangles_are_left_away_with_a_reason(tmp_path, monkeypatch):
     from exo_pin.viewer.meshes import urdf_meshes as module
 
-    monkeypatch.setattr(module, "MANY", 20)
+    monkeypatch.setattr(module, "_MOST_TRIANGLES", 20)
     meshes = Meshes(package(tmp_path), 1.0)
     assert meshes.solids("../meshes/box.stl", (1, 1, 1))
     assert meshes.solids("../meshes/box.stl", (1, 1, 1)) == []

@@ -13,8 +13,7 @@ import pytest
 from exo_pin import viewer
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.page import page
-from exo_pin.viewer.page.bundle import bundle
+from exo_pin.viewer.page.page import SCRIPTS, PageTemplate
 
 HOSTILE = """</title><script>alert("1")</script>&'{{engine}}"""
 LARGEST = {False: 1_500_000, True: 2_000_000}  # bytes of an offline page without and with the wearer
@@ -35,7 +34,7 @@ def chunks(packed):
 
 
 def test_a_bundle_gives_back_header_commands_and_arrays(scene):
-    header, *rest = chunks(bundle(scene))
+    header, *rest = chunks(viewer.bundle(scene))
     facts = json.loads(header)
     assert facts["title"] == scene.title
     assert facts["commands"] == len(scene.commands)
@@ -51,7 +50,7 @@ def test_the_same_scene_is_the_same_page_to_the_byte():
 
 def test_two_different_scenes_have_different_names(scene):
     other = replace(scene, facts=replace(scene.facts, title="other"))
-    ids = {json.loads(chunks(bundle(each))[0])["id"] for each in (scene, other)}
+    ids = {json.loads(chunks(viewer.bundle(each))[0])["id"] for each in (scene, other)}
     assert len(ids) == 2
 
 
@@ -68,7 +67,7 @@ def test_hostile_names_are_text(scene):
 
 
 def test_placeholders_are_filled_in_one_pass():
-    text = page.page("{{script}} {{engine}}")
+    text = PageTemplate.load().page("{{script}} {{engine}}")
     assert text.count("{{script}} {{engine}}") == 2  # title and heading: not filled again
     assert not re.search(r"\{\{(style|policy|bundle|licences)\}\}", text)
 
@@ -90,7 +89,7 @@ def test_the_page_names_nothing_to_load(scene):
 
 
 def test_the_engine_is_meshcats_own_and_its_licences_travel_with_it(scene):
-    source = gzip.decompress(base64.b64decode(page.engine()))
+    source = gzip.decompress(base64.b64decode(PageTemplate.load().engine))
     assert b"MeshCat" in source
     text = viewer.html(scene)
     for name in ("Robin Deits", "Three.js Authors", "dat.gui", "LAAS-CNRS"):
@@ -101,4 +100,4 @@ def test_every_script_in_the_folder_is_used():
     from importlib import resources
 
     folder = resources.files("exo_pin.viewer") / "page"
-    assert {file.name for file in folder.iterdir() if file.name.endswith(".js")} == set(page.SCRIPTS)
+    assert {file.name for file in folder.iterdir() if file.name.endswith(".js")} == set(SCRIPTS)

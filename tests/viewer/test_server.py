@@ -19,10 +19,9 @@ from exo_pin import viewer
 from exo_pin.errors import ExoPinError
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.viewer.page.bundle import bundle
 
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
-FLOOD = 400  # wishes at once
+FLOOD = 400  # requests at once
 WARM_UP, MINUTE, BATCH = 600, 3600, 60  # poses; a minute at 60 a second
 GROWTH = 20_000  # [bytes]: a pose is 76 bytes long; keeping one byte in ten of each would show
 POSE_COST = 0.15e-3  # [s] of Python per live pose
@@ -56,16 +55,16 @@ def talk(server, *messages, wait_for=1, **headers):
     async def run():
         request = HTTPRequest(f"ws://127.0.0.1:{server.port}/live", headers=headers)
         socket = await websocket_connect(request)
-        heard = [await asyncio.wait_for(socket.read_message(), PATIENCE) for _ in range(wait_for)]
+        received = [await asyncio.wait_for(socket.read_message(), PATIENCE) for _ in range(wait_for)]
         for message in messages:
             await socket.write_message(message, binary=isinstance(message, bytes))
-        await socket.write_message(json.dumps(STATE))  # heard after all others: order is kept
+        await socket.write_message(json.dumps(STATE))  # received after all others: order is kept
         end = time.monotonic() + PATIENCE
         while server.state is None and time.monotonic() < end:
             await asyncio.sleep(0.005)
         socket.close()
         await socket.read_message()
-        return heard
+        return received
 
     return asyncio.run(run())
 
@@ -98,7 +97,7 @@ def test_a_foreign_origin_gets_no_connection(server, origin):
 
 def test_the_pages_own_origin_gets_the_scene(server, scene):
     (first,) = talk(server, Origin=f"http://127.0.0.1:{server.port}")
-    assert first == b"\0" + bundle(scene)
+    assert first == b"\0" + viewer.bundle(scene)
 
 
 @pytest.mark.parametrize("path", ["/static/", "/main.min.js", "/../etc/passwd", "/%2e%2e/", "/favicon.ico"])
@@ -145,18 +144,18 @@ async def connected(server):
         pass
 
 
-def wish(scene, number, height):
+def request(scene, number, height):
     q = [float(value) for value in scene.arrays["q"][0]]
     feet = {"left_foot": [0.0, 0.1, height, 0.0, 0.0, 0.0, 1.0]}
     return json.dumps({"type": "reach", "id": number, "feet": feet, "q": q})
 
 
-def test_of_a_flood_of_wishes_the_latest_is_answered_and_no_queue_grows(server, scene):
+def test_of_a_flood_of_requests_the_latest_is_answered_and_no_queue_grows(server, scene):
     async def run():
         answers = []
         async with connected(server) as page:
             for number in range(FLOOD):
-                page.write_message(wish(scene, number, -0.85 - 0.05 * number / FLOOD))
+                page.write_message(request(scene, number, -0.85 - 0.05 * number / FLOOD))
             while not answers or answers[-1]["id"] != FLOOD - 1:
                 answers.append(json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)))
         return answers
@@ -171,8 +170,8 @@ def test_of_a_flood_of_wishes_the_latest_is_answered_and_no_queue_grows(server, 
 def test_two_pages_get_each_their_own_answers(server, scene):
     async def run():
         async with connected(server) as one, connected(server) as other:
-            await one.write_message(wish(scene, 10, -0.85))
-            await other.write_message(wish(scene, 11, -0.8))
+            await one.write_message(request(scene, 10, -0.85))
+            await other.write_message(request(scene, 11, -0.8))
             return [
                 json.loads(await asyncio.wait_for(page.read_message(), PATIENCE)) for page in (one, other)
             ]
@@ -183,7 +182,7 @@ def test_two_pages_get_each_their_own_answers(server, scene):
 def test_a_page_that_leaves_before_its_answer_harms_nobody(server, scene, capfd):
     async def run():
         async with connected(server) as page:
-            await page.write_message(wish(scene, 1, -0.85))
+            await page.write_message(request(scene, 1, -0.85))
 
     asyncio.run(run())
     talk(server)
@@ -227,7 +226,7 @@ def test_a_taken_port_moves_to_the_next_free_one(scene):
         assert get(second)[0] == 200
 
 
-def test_only_loopback_is_listened_on_unless_asked(server):
+def test_only_loopback_is_listened_on_unless_another_host_is_given(server):
     assert server.loopback
     with viewer.serve(host="0.0.0.0", port=0) as open_to_all:
         assert not open_to_all.loopback
@@ -236,7 +235,7 @@ def test_only_loopback_is_listened_on_unless_asked(server):
         assert get(open_to_all, Host="192.0.2.7:7000")[0] == 200
 
 
-def test_a_host_that_is_not_ours_is_said_clearly():
+def test_a_host_of_another_machine_is_refused_clearly():
     with pytest.raises(ExoPinError, match="not an address"):
         viewer.serve(host="no-such-host.invalid", port=0)
     with pytest.raises(ExoPinError, match=r"cannot listen on 192\.0\.2\.1"):
@@ -259,7 +258,7 @@ def test_a_scene_may_follow_the_server(scene):
         assert get(server)[0] == 200
         server.show(scene)
         (first,) = talk(server)
-        assert first == b"\0" + bundle(scene)
+        assert first == b"\0" + viewer.bundle(scene)
 
 
 def test_a_live_pose_costs_next_to_nothing(server):

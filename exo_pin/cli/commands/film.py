@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from exo_pin.cli import show, shown_walk
-from exo_pin.cli.commands.picture import add_view, pixels
+from exo_pin.cli import shot_options, show, shown_walk
 from exo_pin.files import write_bytes
 
 _EXAMPLES = """examples:
@@ -20,7 +19,7 @@ GIF and WebM need Chromium (e.g. apt install chromium), MP4 ffmpeg besides."""
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.epilog = _EXAMPLES
-    add_view(parser, size="960x720")
+    shot_options.add(parser, size="960x720")
     parser.add_argument("--fps", type=float, default=25.0, help="frames per second (default: 25)")
 
 
@@ -28,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
     """Show frame by frame and write the film."""
     from exo_pin.viewer.film import shots
 
-    size = pixels(args.size)
+    size = shot_options.pixels(args.size)
     scene = shown_walk.scene(args, *shown_walk.read(args))
     data = shots.film(
         scene,

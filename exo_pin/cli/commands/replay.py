@@ -59,13 +59,12 @@ def _serve(args: argparse.Namespace) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):  # both, also where a shell's `&` has switched Ctrl-C off
         signal.signal(number, signal.default_int_handler)
     try:
-        given = None if args.server else shown_walk.read(args)  # bad input is said before a browser opens
+        given = None if args.server else shown_walk.read(args)  # bad input is refused before a browser opens
         with args.server or _server(args) as server:
-            scene = shown_walk.scene(
-                args, *(given or shown_walk.read(args))
-            )  # the browser opens while this is computed
+            body, gait = given or shown_walk.read(args)
+            scene = shown_walk.scene(args, body, gait)  # the browser opens while this is computed
             last_picture.keep(args.words, server.show(scene))
-            _say(args, server)
+            _print_address(args, server)
             threading.Event().wait()
     except KeyboardInterrupt:
         pass
@@ -79,8 +78,8 @@ def _server(args: argparse.Namespace) -> Server:
     return viewer.serve(host=args.host, port=args.port, open_browser=opens)
 
 
-def _say(args: argparse.Namespace, server: Server) -> None:
-    """Where to look, and what to beware of."""
+def _print_address(args: argparse.Namespace, server: Server) -> None:
+    """Print where the page is, and warnings about port and host."""
     if args.port and server.port != args.port:
         print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
     if not server.loopback:

@@ -19,7 +19,7 @@ from typing import Any, Self
 from exo_pin.errors import ExoPinError
 from exo_pin.viewer.film.devtools import DevTools
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 """Commands under which the browser is known; `EXO_PIN_CHROMIUM` names another."""
 
 _FLAGS = (
@@ -40,8 +40,8 @@ _FLAGS = (
 
 def find() -> str | None:
     """Path of the installed browser, or None."""
-    asked = os.environ.get("EXO_PIN_CHROMIUM")
-    return next((path for name in (asked, *NAMES) if name and (path := shutil.which(name))), None)
+    chosen = os.environ.get("EXO_PIN_CHROMIUM")
+    return next((path for name in (chosen, *_NAMES) if name and (path := shutil.which(name))), None)
 
 
 class Chromium:
@@ -62,7 +62,7 @@ class Chromium:
         command = find()
         if command is None:
             raise ExoPinError(
-                f"no Chromium found (looked for {', '.join(NAMES)}); install it, e.g. "
+                f"no Chromium found (looked for {', '.join(_NAMES)}); install it, e.g. "
                 "`apt install chromium`, or name it in EXO_PIN_CHROMIUM"
             )
         self.timeout = timeout
@@ -88,7 +88,7 @@ class Chromium:
 
     @property
     def requests(self) -> list[str]:
-        """Addresses that the page asked for since the last `open`, its own first."""
+        """Addresses that the page requested since the last `open`, its own first."""
         return self._tools.requests
 
     def __enter__(self) -> Self:
@@ -138,7 +138,13 @@ class Chromium:
         return base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
 
     def resize(self, width: int, height: int, *, scale: float = 1.0) -> None:
-        """Set the page's size [px] and its pixel ratio."""
+        """Set the page's size.
+
+        Args:
+            width: [px].
+            height: [px].
+            scale: Device pixels per pixel.
+        """
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,

@@ -11,7 +11,7 @@ from typing import Any
 
 from exo_pin.errors import ExoPinError
 
-Params = dict[str, Any]
+_Params = dict[str, Any]
 
 
 class DevTools:
@@ -22,7 +22,7 @@ class DevTools:
 
     Attributes:
         console: Errors and warnings of the page.
-        requests: Addresses that the page asked for.
+        requests: Addresses that the page requested.
     """
 
     def __init__(self, timeout: float) -> None:
@@ -50,7 +50,7 @@ class DevTools:
         Raises:
             ExoPinError: The browser refuses, does not answer in time, or has ended.
         """
-        answer: dict[str, Any] = self._run(self._ask(method, params))
+        answer: dict[str, Any] = self._run(self._send(method, params))
         return answer
 
     def close(self) -> None:
@@ -74,9 +74,9 @@ class DevTools:
         self._socket = await websocket_connect(pages[0]["webSocketDebuggerUrl"], max_message_size=1 << 28)
         self._reader = asyncio.ensure_future(self._read())
         for domain in ("Page", "Runtime", "Log", "Network"):
-            await self._ask(f"{domain}.enable", {})
+            await self._send(f"{domain}.enable", {})
 
-    async def _ask(self, method: str, params: Params) -> dict[str, Any]:
+    async def _send(self, method: str, params: _Params) -> dict[str, Any]:
         self._count += 1
         number = self._count
         waiting = self._answers[number] = asyncio.get_running_loop().create_future()
@@ -107,31 +107,31 @@ class DevTools:
         await asyncio.sleep(0)
 
 
-def _note_console(tools: DevTools, params: Params) -> None:
+def _note_console(tools: DevTools, params: _Params) -> None:
     if params["type"] in ("error", "warning", "assert"):
-        said = (arg.get("value", arg.get("description")) for arg in params["args"])
-        tools.console.append(" ".join(map(str, said)))
+        values = (arg.get("value", arg.get("description")) for arg in params["args"])
+        tools.console.append(" ".join(map(str, values)))
 
 
-def _note_exception(tools: DevTools, params: Params) -> None:
+def _note_exception(tools: DevTools, params: _Params) -> None:
     details = params["exceptionDetails"]
     tools.console.append(details.get("exception", {}).get("description", details["text"]))
 
 
-def _note_log(tools: DevTools, params: Params) -> None:
+def _note_log(tools: DevTools, params: _Params) -> None:
     if params["entry"]["level"] in ("error", "warning"):
         tools.console.append(params["entry"]["text"])
 
 
-def _note_request(tools: DevTools, params: Params) -> None:
+def _note_request(tools: DevTools, params: _Params) -> None:
     tools.requests.append(params["request"]["url"])
 
 
-def _note_socket(tools: DevTools, params: Params) -> None:
+def _note_socket(tools: DevTools, params: _Params) -> None:
     tools.requests.append(params["url"])
 
 
-_NOTES: dict[str, Callable[[DevTools, Params], None]] = {
+_NOTES: dict[str, Callable[[DevTools, _Params], None]] = {
     "Runtime.consoleAPICalled": _note_console,
     "Runtime.exceptionThrown": _note_exception,
     "Log.entryAdded": _note_log,

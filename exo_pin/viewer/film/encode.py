@@ -46,7 +46,13 @@ _MILLISECONDS = bytes.fromhex("2ad7b1830f4240")  # WebM's TimestampScale: times 
 
 
 def gif(shots: Iterator[bytes], fps: float, _browser: Chromium) -> bytes:
-    """PNGs as a GIF that repeats."""
+    """PNGs as a GIF that repeats.
+
+    Args:
+        shots: Pictures of one size.
+        fps: Frames per second.
+        _browser: Not needed.
+    """
     from PIL import Image
 
     octree = Image.Quantize.FASTOCTREE  # keeps the small coloured parts, which the others average away
@@ -59,14 +65,32 @@ def gif(shots: Iterator[bytes], fps: float, _browser: Chromium) -> bytes:
 
 
 def webm(shots: Iterator[bytes], fps: float, browser: Chromium) -> bytes:
-    """PNGs as a WebM."""
+    """PNGs as a WebM, by ffmpeg or else by the browser's own recorder.
+
+    Args:
+        shots: Pictures of one size.
+        fps: Frames per second.
+        browser: Has the recorder.
+
+    Raises:
+        ExoPinError: ffmpeg fails, or the recorder writes in an unknown way.
+    """
     if shutil.which("ffmpeg"):
         return _encoded(shots, fps, ["-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-f", "webm"])
     return _recorded(shots, fps, browser)
 
 
 def mp4(shots: Iterator[bytes], fps: float, _browser: Chromium) -> bytes:
-    """PNGs as an MP4."""
+    """PNGs as an MP4, by ffmpeg.
+
+    Args:
+        shots: Pictures of one size.
+        fps: Frames per second.
+        _browser: Not needed.
+
+    Raises:
+        ExoPinError: ffmpeg fails.
+    """
     options = ["-c:v", "libx264", "-crf", "20", "-movflags", "frag_keyframe+empty_moov", "-f", "mp4"]
     return _encoded(shots, fps, options)
 
@@ -109,4 +133,4 @@ FILMS: dict[str, Callable[[Iterator[bytes], float, Chromium], bytes]] = {
     ".webm": webm,
     ".mp4": mp4,
 }
-"""File name ending -> what makes the film of pictures at a frame rate; the browser lends its recorder."""
+"""Ending of a file name -> encoder of pictures at a frame rate."""

@@ -1,7 +1,7 @@
 """Pictures and films: a headless browser shows the offline page moment by moment.
 
 PNG and GIF need Chromium alone; MP4 needs ffmpeg besides; WebM takes ffmpeg where it is found and else the
-browser's own recorder. The handles of the feet are left out: nobody can take them in a picture.
+browser's own recorder. The handles of the feet are left out.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal, get_args
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.viewer.film.chromium import Chromium
@@ -18,16 +19,19 @@ from exo_pin.viewer.film.encode import FILMS
 from exo_pin.viewer.page.export import html
 from exo_pin.viewer.scenes.scene import Scene
 
-CAMERAS = ("iso", "left", "right", "front", "back", "top", "feet")
-"""Names of the clinical views, as in the page."""
+CameraName = Literal["iso", "left", "right", "front", "back", "top", "feet"]
+"""A clinical view, as in the page."""
 
-QUALITIES = ("high", "low")
+Quality = Literal["high", "low"]
 """With studio light and shadows, or plain shading."""
 
-SIDES = (16, 8192)
-"""Smallest and largest side of a picture [px]."""
+_CAMERAS: tuple[CameraName, ...] = get_args(CameraName)
+_QUALITIES: tuple[Quality, ...] = get_args(Quality)
 
-_NO_HANDS = "#grips { display: none !important }"
+_SMALLEST, _LARGEST = 16, 8192
+"""Side of a picture [px]."""
+
+_NO_HANDLES = "#handles { display: none !important }"
 _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
 #app { display: block !important } #view { position: fixed !important; inset: 0 }
@@ -39,24 +43,24 @@ def picture(
     scene: Scene,
     *,
     phase: float = 0.0,
-    camera: str = "iso",
+    camera: CameraName = "iso",
     size: tuple[int, int] = (1920, 1080),
     curves: bool = False,
-    quality: str = "high",
+    quality: Quality = "high",
 ) -> bytes:
     """One moment as PNG.
 
     Args:
         scene: What to show.
         phase: Share of the walk's duration, 0 .. 1.
-        camera: One of `CAMERAS`.
+        camera: A clinical view.
         size: Width and height [px].
         curves: The whole page with its curves, not the 3-D picture alone.
         quality: `"high"`: studio light and shadows, seconds to load without a graphics card; `"low"`: plain.
 
     Raises:
         DescriptionError: A size or phase is out of range.
-        UnknownNameError: There is no such camera.
+        UnknownNameError: There is no such camera or quality.
         ExoPinError: There is no Chromium.
     """
     (shot,) = pictures(scene, [phase], camera=camera, size=size, curves=curves, quality=quality)
@@ -67,13 +71,23 @@ def pictures(
     scene: Scene,
     phases: Sequence[float],
     *,
-    camera: str = "iso",
+    camera: CameraName = "iso",
     size: tuple[int, int] = (1920, 1080),
     curves: bool = False,
-    quality: str = "high",
+    quality: Quality = "high",
     legend: bool = True,
 ) -> list[bytes]:
-    """Several moments as PNG, by one browser, with or without the legend; else as `picture`."""
+    """Several moments as PNG, by one browser; errors as of `picture`.
+
+    Args:
+        scene: What to show.
+        phases: Shares of the walk's duration, 0 .. 1.
+        camera: A clinical view.
+        size: Width and height [px].
+        curves: The whole page with its curves, not the 3-D picture alone.
+        quality: `"high"`: studio light and shadows; `"low"`: plain.
+        legend: Whether to draw the legend of colours.
+    """
     for phase in phases:
         if not 0 <= phase <= 1:
             raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
@@ -86,19 +100,19 @@ def film(
     scene: Scene,
     path: Path,
     *,
-    camera: str = "iso",
+    camera: CameraName = "iso",
     size: tuple[int, int] = (960, 720),
     fps: float = 30.0,
     curves: bool = False,
-    quality: str = "high",
+    quality: Quality = "high",
     progress: Callable[[Sequence[float]], Iterable[float]] = lambda phases: phases,
 ) -> bytes:
     """The whole walk, at the scene's playback speed, as the bytes of a GIF, WebM or MP4.
 
     Args:
         scene: What to show.
-        path: Its ending says the kind: one of `FILMS`.
-        camera: One of `CAMERAS`.
+        path: Its ending chooses the format: one of `FILMS`.
+        camera: A clinical view.
         size: Width and height [px].
         fps: Frames per second.
         curves: The whole page with its curves, not the 3-D picture alone.
@@ -123,14 +137,18 @@ def film(
 
 
 @contextmanager
-def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool, quality: str) -> Iterator[Chromium]:
+def _page(
+    scene: Scene, camera: CameraName, size: tuple[int, int], curves: bool, quality: Quality
+) -> Iterator[Chromium]:
     """The offline page in a browser, standing still."""
-    if quality not in QUALITIES:
-        raise UnknownNameError("quality", quality, QUALITIES)
-    if camera not in CAMERAS:
-        raise UnknownNameError("camera", camera, CAMERAS)
-    if not all(SIDES[0] <= side <= SIDES[1] for side in size):
-        raise DescriptionError(f"size is {size[0]}x{size[1]}; {SIDES[0]} .. {SIDES[1]} px a side is accepted")
+    if quality not in _QUALITIES:
+        raise UnknownNameError("quality", quality, _QUALITIES)
+    if camera not in _CAMERAS:
+        raise UnknownNameError("camera", camera, _CAMERAS)
+    if not all(_SMALLEST <= side <= _LARGEST for side in size):
+        raise DescriptionError(
+            f"size is {size[0]}x{size[1]}; {_SMALLEST} .. {_LARGEST} px a side is accepted"
+        )
     with tempfile.TemporaryDirectory(prefix="exo_pin-film-") as folder, Chromium(size) as browser:
         page = Path(folder) / "walk.html"
         page.write_text(html(scene), encoding="utf-8")
@@ -139,7 +157,7 @@ def _page(scene: Scene, camera: str, size: tuple[int, int], curves: bool, qualit
             raise ExoPinError("this Chromium shows no 3-D pictures (WebGL is off or missing)")
         browser.evaluate(
             f"document.head.append(Object.assign(document.createElement('style'), "
-            f"{{ textContent: `{_NO_HANDS if curves else _NO_HANDS + _ALONE}` }}))"
+            f"{{ textContent: `{_NO_HANDLES if curves else _NO_HANDLES + _ALONE}` }}))"
         )
         browser.evaluate("exo.clock.play(false)")
         browser.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")

@@ -1,9 +1,8 @@
-"""Feet taken by the hand: the page says where it wants them, inverse kinematics says how far the legs get."""
+"""Feet dragged in the live page: inverse kinematics answers where the legs get."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -12,44 +11,43 @@ from exo_pin import ik
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot, load_urdf
-from exo_pin.viewer.live.messages import Wish
+from exo_pin.viewer.live.messages import Reached, ReachRequest
 
-TURN = 0.1
+ROTATION_WEIGHT = 0.1
 """What a rotation error of 1 rad counts in metres: about what it moves the sole's points (a choice)."""
 
 TOLERANCE = 1e-6
 """A foot this near to its target [m, rad] is there."""
 
-NEAREST = ik.Dls(tolerance=TOLERANCE, max_iterations=40, restarts=0)
+_NEAREST = ik.Dls(tolerance=TOLERANCE, max_iterations=40, restarts=0)
 """For targets out of reach: from the pose at present, so that the leg does not jump; at most some 10 ms."""
 
 
-def reacher(robot: Robot, joints: Sequence[str]) -> Callable[[Wish], dict[str, Any]]:
-    """A function that answers a page's wishes for a robot.
+def reach_solver(robot: Robot, joints: Sequence[str]) -> Callable[[ReachRequest], Reached]:
+    """A function that answers a page's requests for a robot.
 
     The closed form answers where it can; else damped least squares give the nearest pose within the joint
-    limits, nearest in metres and `TURN` times radians.
+    limits, nearest in metres and `ROTATION_WEIGHT` times radians.
 
     Args:
-        robot: Whose legs they are.
+        robot: The robot that the page shows.
         joints: Names of its URDF's joints in the order of the page's chain.
 
     Returns:
-        Wish -> what the page is told: `q` in the page's order, and `misses`: frame -> (distance [m],
-        angle [rad]) that remain, both 0 where the foot is at its target within `TOLERANCE`.
+        Request -> answer; a foot that is at its target within `TOLERANCE` misses by exactly 0.
     """
     own = load_urdf(robot.urdf)  # what the page shows: its root link at the origin, its locked joints locked
     columns = [own.joints.index(name) for name in joints]
 
-    def answer(wish: Wish) -> dict[str, Any]:
+    def answer(request: ReachRequest) -> Reached:
         start = own.neutral
-        start[columns] = wish.q
-        targets = {name: _target(pose) for name, pose in wish.feet.items()}
+        start[columns] = request.q
+        targets = {name: _target(pose) for name, pose in request.feet.items()}
         found = _solve(own, targets, np.clip(start, own.lower, own.upper))
         errors = np.stack([found.position_error[0], found.rotation_error[0]], axis=1)
         errors[(errors <= TOLERANCE).all(axis=1)] = 0.0
-        misses = dict(zip(found.frames, errors.tolist(), strict=True))
-        return {"type": "reached", "id": wish.id, "q": found.q[0, columns].tolist(), "misses": misses}
+        misses = {name: (far, off) for name, (far, off) in zip(found.frames, errors.tolist(), strict=True)}
+        return Reached(request.id, tuple(found.q[0, columns].tolist()), misses)
 
     return answer
 
@@ -61,9 +59,9 @@ def _solve(robot: Robot, targets: dict[str, ik.Pose], start: Array) -> ik.Track:
             return exact
     except DescriptionError:  # a leg that has none
         pass
-    return ik.track(robot, targets, start, settings=NEAREST)
+    return ik.track(robot, targets, start, settings=_NEAREST)
 
 
 def _target(pose: tuple[float, ...]) -> ik.Pose:
     T = pin.XYZQUATToSE3(np.array(pose)).homogeneous
-    return ik.Pose(T[None], rotation_weight=TURN)
+    return ik.Pose(T[None], rotation_weight=ROTATION_WEIGHT)

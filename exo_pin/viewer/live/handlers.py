@@ -1,4 +1,4 @@
-"""What the live viewer's server answers: one page, one WebSocket, and 404 to all else."""
+"""The live viewer's routes: one page, one WebSocket, and 404 for all else."""
 
 from __future__ import annotations
 
@@ -11,43 +11,43 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from exo_pin.viewer.page.page import policy
 
 
-class Desk(Protocol):
-    """What the handlers ask of the server that they answer for."""
+class PageServer(Protocol):
+    """What the handlers need of the server."""
 
     def allows(self, host: str) -> bool:
         """Whether a request with this Host header is answered."""
 
     def page(self, host: str) -> str:
-        """The page for a browser that asked this host."""
+        """The page for a browser that requested it from this host."""
 
-    def joined(self, client: Live) -> None:
+    def opened(self, client: Live) -> None:
         """A page opened its connection."""
 
-    def heard(self, client: Live, message: str | bytes) -> None:
-        """A page said something."""
+    def received(self, client: Live, message: str | bytes) -> None:
+        """A page sent a message."""
 
-    def left(self, client: Live) -> None:
+    def closed(self, client: Live) -> None:
         """A page closed its connection."""
 
 
-def application(server: Desk) -> Application:
+def application(server: PageServer) -> Application:
     """The routes of the server."""
-    known = {"server": server}
+    arguments = {"server": server}
     return Application(
-        [("/", Page, known), ("/live", Live, known)],
-        default_handler_class=Nothing,
-        log_function=lambda _: None,  # requests are nobody's news
+        [("/", Page, arguments), ("/live", Live, arguments)],
+        default_handler_class=NotFound,
+        log_function=lambda _: None,  # requests are not logged
         websocket_max_message_size=65_536,
     )
 
 
-def check_host(server: Desk, request: HTTPServerRequest) -> None:
+def _check_host(server: PageServer, request: HTTPServerRequest) -> None:
     """Refuse requests that were addressed to another name (DNS rebinding) with 404."""
     if not server.allows(request.host):
         raise HTTPError(404)
 
 
-class Nothing(RequestHandler):
+class NotFound(RequestHandler):
     """Every other address."""
 
     def prepare(self) -> None:
@@ -58,13 +58,13 @@ class Nothing(RequestHandler):
 class Page(RequestHandler):
     """The viewer's page."""
 
-    def initialize(self, server: Desk) -> None:
+    def initialize(self, server: PageServer) -> None:
         """Remember the server."""
         self.viewer = server
 
     def prepare(self) -> None:
         """Refuse foreign hosts."""
-        check_host(self.viewer, self.request)
+        _check_host(self.viewer, self.request)
 
     def get(self) -> None:
         """Send the page."""
@@ -80,29 +80,29 @@ class Page(RequestHandler):
 class Live(WebSocketHandler):
     """The page's connection; tornado itself refuses an Origin that is not the Host."""
 
-    def initialize(self, server: Desk) -> None:
+    def initialize(self, server: PageServer) -> None:
         """Remember the server."""
         self.viewer = server
 
     def prepare(self) -> None:
         """Refuse foreign hosts."""
-        check_host(self.viewer, self.request)
+        _check_host(self.viewer, self.request)
 
     def open(self, *_: Any, **__: Any) -> None:
-        """A page is there."""
-        self.viewer.joined(self)
+        """A page is connected."""
+        self.viewer.opened(self)
 
     def on_message(self, message: str | bytes) -> None:
-        """A page said something."""
-        self.viewer.heard(self, message)
+        """Pass a message on."""
+        self.viewer.received(self, message)
 
     def on_close(self) -> None:
         """The page is gone."""
-        self.viewer.left(self)
+        self.viewer.closed(self)
 
     def send(self, message: str | bytes) -> None:
         """Send, unless the page has just gone."""
         try:
             self.write_message(message, binary=isinstance(message, bytes))
         except WebSocketClosedError:
-            self.viewer.left(self)
+            self.viewer.closed(self)

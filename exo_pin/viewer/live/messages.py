@@ -1,33 +1,54 @@
-"""What the live page says, read with distrust: a well-formed message becomes a value, all else None."""
+"""The live page's messages as records: a well-formed message becomes a value, any other None."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exo_pin.viewer.scenes.scene import Facts
 
-Said = Mapping[str, Any]
+_FARTHEST_TARGET = 5.0
+"""A foot's target is at most this far from the root link along each axis [m]."""
 
-FAR = 5.0
-"""A foot's target is at most this far from the root link along each axis [m]; beyond it is no foot's."""
-
-POSE = 7
+_POSE_LENGTH = 7
 """Numbers of a pose: x y z [m], quaternion x y z w."""
 
-LARGEST_ID = 2**31
+_LARGEST_ID = 2**31
 
 
 @dataclass(frozen=True)
-class Wish:
-    """Where a page wants the feet.
+class PlaybackState:
+    """Where a page's playback is.
 
     Attributes:
-        id: The page's own number of the question, to be returned with the answer.
+        time: Of the walk [s].
+        speed: 1 is as it happened.
+        view: Name of the camera, or empty.
+        playing: Whether it runs.
+        loop: Whether it starts again at the end.
+    """
+
+    time: float
+    speed: float
+    view: str
+    playing: bool
+    loop: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class ReachRequest:
+    """Where a page wants the feet: a question to inverse kinematics.
+
+    Attributes:
+        id: The page's own number of the request, to be returned with the answer.
         feet: Frame -> pose in the root link: x y z [m], unit quaternion x y z w.
         q: Joint values at present, in the order of the scene's first chain [rad, m].
     """
@@ -37,42 +58,62 @@ class Wish:
     q: tuple[float, ...]
 
 
-def read(message: str | bytes) -> Said | None:
+@dataclass(frozen=True)
+class Reached:
+    """The answer of inverse kinematics.
+
+    Attributes:
+        id: Number of the request.
+        q: Joint values, in the order of the scene's first chain [rad, m].
+        misses: Frame -> distance [m] and angle [rad] that remain, both 0 where the foot is at its target.
+    """
+
+    id: int
+    q: tuple[float, ...]
+    misses: Mapping[str, tuple[float, float]]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return {"type": "reached", "id": self.id, "q": self.q, "misses": dict(self.misses)}
+
+
+def read(message: str | bytes) -> Mapping[str, Any] | None:
     """The JSON object in a message, or None."""
     try:
-        said = json.loads(message)
+        content = json.loads(message)
     except (ValueError, RecursionError):  # no JSON, or brackets without end
         return None
-    return said if isinstance(said, dict) else None
+    return content if isinstance(content, dict) else None
 
 
-def state(said: Said) -> dict[str, Any] | None:
-    """The state of playback: `time` [s], `speed`, `view`, `playing`, `loop`."""
-    if said.get("type") != "state":
+def playback_state(content: Mapping[str, Any]) -> PlaybackState | None:
+    """The state of playback in a message of type `state`, or None."""
+    if content.get("type") != "state":
         return None
-    numbers = _numbers([said.get("time"), said.get("speed")], 2)
-    if numbers is None or not 0.05 <= numbers[1] <= 10 or not isinstance(said.get("view"), str):
+    numbers, view = _numbers([content.get("time"), content.get("speed")], 2), content.get("view")
+    if numbers is None or not 0.05 <= numbers[1] <= 10 or not isinstance(view, str):
         return None
-    flags = {name: said.get(name) is True for name in ("playing", "loop")}
-    return {"time": numbers[0], "speed": numbers[1], "view": said["view"][:20], **flags}
+    playing, loop = (content.get(name) is True for name in ("playing", "loop"))
+    time, speed = numbers
+    return PlaybackState(time, speed, view[:20], playing, loop)
 
 
-def wish(said: Said, facts: Facts) -> Wish | None:
-    """Where the page wants the feet of the scene with these facts."""
-    feet, joints = {grip.link for grip in facts.grips}, len(facts.chains[0].joints)
-    number, asked, q = said.get("id"), said.get("feet"), _numbers(said.get("q"), joints)
-    if said.get("type") != "reach" or type(number) is not int or not 0 <= number < LARGEST_ID:
+def reach_request(content: Mapping[str, Any], facts: Facts) -> ReachRequest | None:
+    """Where the page wants the feet of the scene with these facts, in a message of type `reach`, or None."""
+    known, joints = {handle.link for handle in facts.handles}, len(facts.chains[0].joints)
+    number, feet, q = content.get("id"), content.get("feet"), _numbers(content.get("q"), joints)
+    if content.get("type") != "reach" or type(number) is not int or not 0 <= number < _LARGEST_ID:
         return None
-    if q is None or not isinstance(asked, dict) or not asked or not set(asked) <= feet:
+    if q is None or not isinstance(feet, dict) or not feet or not set(feet) <= known:
         return None
-    poses = {name: _pose(values) for name, values in asked.items()}
-    known = {name: pose for name, pose in poses.items() if pose is not None}
-    return Wish(number, known, q) if len(known) == len(poses) else None
+    targets = {name: _pose(values) for name, values in feet.items()}
+    valid = {name: pose for name, pose in targets.items() if pose is not None}
+    return ReachRequest(number, valid, q) if len(valid) == len(targets) else None
 
 
 def _pose(values: Any) -> tuple[float, ...] | None:
-    numbers = _numbers(values, POSE)
-    if numbers is None or max(map(abs, numbers[:3])) > FAR:
+    numbers = _numbers(values, _POSE_LENGTH)
+    if numbers is None or max(map(abs, numbers[:3])) > _FARTHEST_TARGET:
         return None
     length = math.hypot(*numbers[3:])
     if not 0.9 < length < 1.1:  # a unit quaternion but for rounding
@@ -81,7 +122,7 @@ def _pose(values: Any) -> tuple[float, ...] | None:
 
 
 def _numbers(values: Any, count: int) -> tuple[float, ...] | None:
-    """So many finite numbers, or None; true and false are none."""
+    """So many finite numbers, or None; true and false are not numbers."""
     if not isinstance(values, list) or len(values) != count:
         return None
     if not all(type(value) in (int, float) for value in values):

@@ -7,32 +7,31 @@ messages that are not understood are ignored. There is no ZMQ port as in meshcat
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import ipaddress
 import json
-import re
-import socket
 import threading
 import webbrowser
 from collections.abc import Callable, Coroutine
+from functools import cached_property
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from exo_pin.viewer.live import messages
-from exo_pin.viewer.live.port import listen
+from exo_pin.viewer.live.address import is_allowed, listen, page_url
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from tornado.httpserver import HTTPServer
 
     from exo_pin.viewer.live.handlers import Live
+    from exo_pin.viewer.page.page import PageTemplate
     from exo_pin.viewer.scenes.scene import Scene
 
-BUNDLE, POSE = b"\0", b"\1"
+_BUNDLE, _POSE = b"\0", b"\1"
 """First byte of a binary message to the page: a packed scene, or one pose."""
 
-PACE = 0.004
-"""A page's wishes are gathered for so long [s] before the latest is answered: a flood costs no more."""
+_GATHERING = 0.004
+"""A page's requests are gathered for so long [s] before the latest is answered: a flood costs no more."""
 
 
 def serve(
@@ -66,7 +65,7 @@ class Server:
     Attributes:
         host: Address that it listens on.
         port: Port that it listens on.
-        wanted: Port that was asked for.
+        wanted: Port that the caller wanted.
         url: Where to look.
     """
 
@@ -74,11 +73,11 @@ class Server:
         self.host, self.wanted = host, port
         self._bundle = b""
         self._title = "exo_pin"
-        self._state: dict[str, Any] | None = None
+        self._state: messages.PlaybackState | None = None
         self._clients: set[Live] = set()
-        self._wishes: dict[Live, messages.Wish] = {}
+        self._requests: dict[Live, messages.ReachRequest] = {}
         self._scene: Scene | None = None
-        self._reach: Callable[[messages.Wish], dict[str, Any]] | None = None
+        self._reach: Callable[[messages.ReachRequest], messages.Reached] | None = None
         self._socket = listen(host, port)
         self._address, self.port = self._socket.getsockname()[:2]
         self._loop = asyncio.new_event_loop()
@@ -89,8 +88,7 @@ class Server:
     @property
     def url(self) -> str:
         """The page's address."""
-        host = "127.0.0.1" if self.host in ("0.0.0.0", "::", "") else self.host
-        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}/"
+        return page_url(self.host, self.port)
 
     @property
     def loopback(self) -> bool:
@@ -105,7 +103,7 @@ class Server:
     @property
     def state(self) -> dict[str, Any] | None:
         """Where a page last was: `time` [s], `playing`, `speed`, `loop`, `view`. A new page resumes there."""
-        return None if self._state is None else dict(self._state)
+        return None if self._state is None else self._state.to_json()
 
     def show(self, scene: Scene) -> bytes:
         """Show another scene in all pages, now and later; returns it packed."""
@@ -129,7 +127,7 @@ class Server:
         import numpy as np
 
         numbers = np.concatenate([np.asarray(base, "<f4"), np.asarray(q, "<f4")])
-        self._broadcast(POSE + numbers.tobytes())
+        self._broadcast(_POSE + numbers.tobytes())
 
     def close(self) -> None:
         """Stop listening, close all pages' connections and end the thread; may be called twice."""
@@ -149,19 +147,8 @@ class Server:
         self.close()
 
     def allows(self, host: str) -> bool:
-        """Whether a request with this Host header is answered.
-
-        On loopback only loopback names are; else also literal addresses and this machine's own name, which a
-        foreign web site cannot make its own.
-        """
-        name = re.sub(r":\d+$", "", host).strip("[]").lower()
-        if name in ("localhost", "127.0.0.1", "::1", self.host.lower()):
-            return True
-        if self.loopback:
-            return False
-        with contextlib.suppress(ValueError):
-            return bool(ipaddress.ip_address(name))
-        return name == socket.gethostname().lower()
+        """Whether a request with this Host header is answered."""
+        return is_allowed(host, host=self.host, loopback=self.loopback)
 
     def _work(self) -> None:
         asyncio.set_event_loop(self._loop)
@@ -199,52 +186,56 @@ class Server:
 
     def _install(self, packed: bytes, scene: Scene | None) -> None:
         self._scene, self._reach = scene, None
-        self._wishes.clear()
+        self._requests.clear()
         self._title = self._title if scene is None else scene.title
         if packed != self._bundle:
             self._bundle, self._state = packed, None
-            self._send(BUNDLE + packed)
+            self._send(_BUNDLE + packed)
 
-    def _fulfil(self, client: Live) -> None:
-        """Answer a page's latest wish."""
-        wish, scene = self._wishes.pop(client, None), self._scene
-        if wish is None or scene is None or scene.robot is None:
+    def _answer(self, client: Live) -> None:
+        """Answer a page's latest request."""
+        request, scene = self._requests.pop(client, None), self._scene
+        if request is None or scene is None or scene.robot is None:
             return
         if self._reach is None:
-            from exo_pin.viewer.live.foot_drag import reacher
+            from exo_pin.viewer.live.foot_drag import reach_solver
 
-            self._reach = reacher(scene.robot, [joint.name for joint in scene.facts.chains[0].joints])
-        client.send(json.dumps(self._reach(wish)))
+            self._reach = reach_solver(scene.robot, [joint.name for joint in scene.facts.chains[0].joints])
+        client.send(json.dumps(self._reach(request).to_json()))
+
+    @cached_property
+    def _template(self) -> PageTemplate:
+        from exo_pin.viewer.page.page import PageTemplate
+
+        return PageTemplate.load()
 
     # What the handlers call, in the server's own thread:
 
-    def joined(self, client: Live) -> None:
+    def opened(self, client: Live) -> None:
         """A page opened its connection: it gets the scene, and the state where another page was."""
         self._clients.add(client)
         if self._bundle:
-            client.send(BUNDLE + self._bundle)
+            client.send(_BUNDLE + self._bundle)
         if self._state is not None:
-            client.send(json.dumps({"type": "state", **self._state}))
+            client.send(json.dumps({"type": "state", **self._state.to_json()}))
 
-    def left(self, client: Live) -> None:
+    def closed(self, client: Live) -> None:
         """A page closed its connection."""
         self._clients.discard(client)
-        self._wishes.pop(client, None)
+        self._requests.pop(client, None)
 
-    def heard(self, client: Live, message: str | bytes) -> None:
-        """A page said something; only a well-formed state or wish counts, and of wishes the latest."""
-        said = messages.read(message)
-        if said is None:
+    def received(self, client: Live, message: str | bytes) -> None:
+        """A page sent a message; only a well-formed state or request counts, and of requests the latest."""
+        content = messages.read(message)
+        if content is None:
             return
-        self._state = messages.state(said) or self._state
-        wish = None if self._scene is None else messages.wish(said, self._scene.facts)
-        if wish is not None:
-            if client not in self._wishes:
-                self._loop.call_later(PACE, self._fulfil, client)
-            self._wishes[client] = wish
+        self._state = messages.playback_state(content) or self._state
+        request = None if self._scene is None else messages.reach_request(content, self._scene.facts)
+        if request is not None:
+            if client not in self._requests:
+                self._loop.call_later(_GATHERING, self._answer, client)
+            self._requests[client] = request
 
     def page(self, host: str) -> str:
         """The page, which may connect back to where it came from and nowhere else."""
-        from exo_pin.viewer.page.page import page
-
-        return page(self._title, connect=f"ws://{host}")
+        return self._template.page(self._title, connect=f"ws://{host}")

@@ -11,15 +11,15 @@ import numpy as np
 
 from exo_pin.arrays import Array, Index
 from exo_pin.gait.rigid_poses import about
-from exo_pin.viewer.meshes.solids import Color
 
-Triangles = tuple[Array, Index, Color | None]
+_Color = tuple[float, float, float, float]
+_Triangles = tuple[Array, Index, _Color | None]
 
-DEEPEST = 50
+_DEEPEST_NODE = 50
 """Nodes of a scene that are nested deeper are refused: a real one has a handful."""
 
 
-def parts(data: bytes) -> tuple[list[Triangles], bool]:
+def parts(data: bytes) -> tuple[list[_Triangles], bool]:
     """Vertices `(v, 3)` [m], faces `(f, 3)` and colour of each primitive; whether the file has y up.
 
     The unit is applied, the `up_axis` is not: ROS's tools ignore it, others apply it.
@@ -41,48 +41,50 @@ class _Document:
         unit = root.find("asset/unit")
         self.unit = 1.0 if unit is None else float(unit.get("meter", "1"))
 
-    def triangles(self) -> Iterator[Triangles]:
+    def triangles(self) -> Iterator[_Triangles]:
         T = np.diag([self.unit, self.unit, self.unit, 1.0])
         scenes = self.root.findall("library_visual_scenes/visual_scene")
         if not scenes:
             for geometry in self.root.findall("library_geometries/geometry"):
-                yield from self.geometry(geometry, T, {})
+                yield from self._geometry(geometry, T, {})
         for scene in scenes:
             for node in scene.findall("node"):
-                yield from self.node(node, T, 0)
+                yield from self._node(node, T, 0)
 
-    def node(self, node: ET.Element, T: Array, depth: int) -> Iterator[Triangles]:
-        if depth > DEEPEST:
-            raise ValueError(f"its nodes are nested deeper than {DEEPEST}")
+    def _node(self, node: ET.Element, T: Array, depth: int) -> Iterator[_Triangles]:
+        if depth > _DEEPEST_NODE:
+            raise ValueError(f"its nodes are nested deeper than {_DEEPEST_NODE}")
         for child in node:
             if child.tag in _MOVES:
                 T = T @ _MOVES[child.tag](np.array((child.text or "").split(), dtype=float))
         for instance in node.findall("instance_geometry"):
-            looks = {str(m.get("symbol")): str(m.get("target")) for m in instance.iter("instance_material")}
-            yield from self.geometry(self.at(instance.get("url")), T, looks)
+            materials = {
+                str(m.get("symbol")): str(m.get("target")) for m in instance.iter("instance_material")
+            }
+            yield from self._geometry(self._at(instance.get("url")), T, materials)
         for instance in node.findall("instance_node"):
-            yield from self.node(self.at(instance.get("url")), T, depth + 1)
+            yield from self._node(self._at(instance.get("url")), T, depth + 1)
         for child in node.findall("node"):
-            yield from self.node(child, T, depth + 1)
+            yield from self._node(child, T, depth + 1)
 
-    def at(self, url: str | None) -> ET.Element:
+    def _at(self, url: str | None) -> ET.Element:
         return self.ids[str(url).removeprefix("#")]
 
-    def geometry(self, geometry: ET.Element, T: Array, looks: dict[str, str]) -> Iterator[Triangles]:
+    def _geometry(self, geometry: ET.Element, T: Array, materials: dict[str, str]) -> Iterator[_Triangles]:
         for kind in ("triangles", "polylist", "polygons"):
             for primitive in geometry.findall(f"mesh/{kind}"):
-                vertices, faces = self.primitive(primitive)
+                vertices, faces = self._primitive(primitive)
                 symbol = str(primitive.get("material"))
-                yield vertices @ T[:3, :3].T + T[:3, 3], faces, self.color(looks.get(symbol, symbol))
+                yield vertices @ T[:3, :3].T + T[:3, 3], faces, self._color(materials.get(symbol, symbol))
 
-    def primitive(self, primitive: ET.Element) -> tuple[Array, Index]:
+    def _primitive(self, primitive: ET.Element) -> tuple[Array, Index]:
         inputs = {str(i.get("semantic")): i for i in primitive.findall("input")}
         width = 1 + max(int(i.get("offset", "0")) for i in inputs.values())
         vertex = inputs["VERTEX"]
-        positions = self.at(vertex.get("source")).find("input[@semantic='POSITION']")
+        positions = self._at(vertex.get("source")).find("input[@semantic='POSITION']")
         if positions is None:
             raise ValueError("its vertices have no positions")
-        source = self.at(positions.get("source"))
+        source = self._at(positions.get("source"))
         floats = source.find("float_array")
         accessor = source.find("technique_common/accessor")
         stride = 3 if accessor is None else int(accessor.get("stride", "3"))
@@ -101,11 +103,11 @@ class _Document:
         ring = np.concatenate(corners) if corners else np.zeros(0, dtype=np.int64)
         return numbers.reshape(-1, stride)[:, :3], _fans(ring, np.array(sizes, dtype=np.int64))
 
-    def color(self, target: str) -> Color | None:
+    def _color(self, target: str) -> _Color | None:
         """The diffuse colour of a material; opacities are left away, exporters disagree on their sense."""
         material = self.ids.get(target.removeprefix("#"))
         effect = None if material is None else material.find("instance_effect")
-        found = None if effect is None else self.at(effect.get("url")).find(".//diffuse/color")
+        found = None if effect is None else self._at(effect.get("url")).find(".//diffuse/color")
         if found is None:
             return None
         red, green, blue = (float(x) for x in (found.text or "").split()[:3])

@@ -1,4 +1,4 @@
-"""Mesh files as triangles: STL, OBJ and COLLADA, one entry in READERS per kind; geometry and colours alone.
+"""Mesh files as triangles: STL, OBJ and COLLADA, one entry in a table per kind; geometry and colours alone.
 
 Nothing that a mesh file names (textures, material libraries) is opened.
 """
@@ -28,7 +28,7 @@ class MeshPart:
     """Triangles of one colour.
 
     Attributes:
-        vertices: `(v, 3)` in the file's own unit, scaled to metres where the file tells it.
+        vertices: `(v, 3)` in the file's own unit, scaled to metres where the file names its unit.
         faces: `(f, 3)` rows of vertices.
         color: Red, green, blue, opacity, or None where the file names none.
         y_up: Whether the file says that its y points up; most tools do not care.
@@ -47,11 +47,11 @@ def read(path: Path) -> list[MeshPart]:
         FormatError: It cannot be read, is of no known kind, or is damaged.
     """
     kind = path.suffix.lower()
-    if kind not in READERS:
-        raise FormatError(path, f"{kind or 'no ending'} is no mesh; {', '.join(READERS)} are accepted")
+    if kind not in _READERS:
+        raise FormatError(path, f"{kind or 'no ending'} is no mesh; {', '.join(_READERS)} are accepted")
     data = read_bytes(path)
     try:
-        parts = READERS[kind](data)
+        parts = _READERS[kind](data)
     except (ValueError, LookupError, OverflowError, ET.ParseError) as error:
         raise FormatError(path, f"is damaged: {error}") from None
     for part in parts:
@@ -102,7 +102,7 @@ def dae(data: bytes) -> list[MeshPart]:
     return [_used(vertices, faces, color, y_up) for vertices, faces, color in found]
 
 
-READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
+_READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
     {".stl": stl, ".obj": obj, ".dae": dae}
 )
 """What reads the content of a file, by its ending."""

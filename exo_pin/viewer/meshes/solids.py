@@ -8,22 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.arrays import Array, Index
-from exo_pin.viewer.drawing_commands import translation
 
 Color = tuple[float, float, float, float]
 """Red, green, blue and opacity, each from 0 to 1."""
 
-ROUND = 0.0025
+_ROUND = 0.0025
 """Edges are rounded over this [m], or over a sixth of the thinnest side."""
 
-SEGMENTS = 36
+_SEGMENTS = 36
 """Sides of a cylinder."""
 
 
@@ -39,6 +37,19 @@ class Solid:
         """The solid at a pose `(4, 4)`."""
         R = T[:3, :3]
         return Solid(self.vertices @ R.T + T[:3, 3], self.faces, self.normals @ R.T)
+
+
+def translation(x: float, y: float, z: float) -> Array:
+    """`(4, 4)` pose without rotation.
+
+    Args:
+        x: Forward [m].
+        y: Left [m].
+        z: Up [m].
+    """
+    T = np.eye(4)
+    T[:3, 3] = x, y, z
+    return T
 
 
 def joined(solids: Iterable[Solid]) -> Solid:
@@ -59,15 +70,14 @@ def box(size: ArrayLike) -> Solid:
     triangles between them, over which the normals turn.
     """
     half = np.asarray(size, dtype=float) / 2
-    inset = min(ROUND, half.min() / 3)
-    signs, normals, faces = _box_pattern()
-    return Solid(signs * (half - inset) + normals * inset, faces, normals)
+    inset = min(_ROUND, half.min() / 3)
+    return Solid(_BOX_SIGNS * (half - inset) + _BOX_NORMALS * inset, _BOX_FACES, _BOX_NORMALS)
 
 
 def cylinder(radius: float, length: float) -> Solid:
     """A cylinder along z [m]."""
-    inset = min(ROUND, radius / 3, length / 6)
-    angle = np.arange(SEGMENTS) * 2 * np.pi / SEGMENTS
+    inset = min(_ROUND, radius / 3, length / 6)
+    angle = np.arange(_SEGMENTS) * 2 * np.pi / _SEGMENTS
     around = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     up = np.array([0.0, 0.0, 1.0])
     end, wall = length / 2 * up, (length / 2 - inset) * up
@@ -76,27 +86,27 @@ def cylinder(radius: float, length: float) -> Solid:
     turns = [0 * around - up, around, around, 0 * around + up]
     vertices = np.vstack([*rings, -end, end])
     normals = np.vstack([*turns, -up, up])
-    here = np.arange(SEGMENTS)
-    after = (here + 1) % SEGMENTS
-    strips = [np.stack([k + here, k + after, k + SEGMENTS + after, k + SEGMENTS + here], axis=1)
-              for k in (0, SEGMENTS, 2 * SEGMENTS)]  # fmt: skip
+    here = np.arange(_SEGMENTS)
+    after = (here + 1) % _SEGMENTS
+    strips = [np.stack([k + here, k + after, k + _SEGMENTS + after, k + _SEGMENTS + here], axis=1)
+              for k in (0, _SEGMENTS, 2 * _SEGMENTS)]  # fmt: skip
     quads = np.concatenate(strips)
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    low = np.stack([np.full(SEGMENTS, 4 * SEGMENTS), after, here], axis=1)
-    top = 3 * SEGMENTS
-    high = np.stack([np.full(SEGMENTS, 4 * SEGMENTS + 1), top + here, top + after], axis=1)
+    low = np.stack([np.full(_SEGMENTS, 4 * _SEGMENTS), after, here], axis=1)
+    top = 3 * _SEGMENTS
+    high = np.stack([np.full(_SEGMENTS, 4 * _SEGMENTS + 1), top + here, top + after], axis=1)
     return Solid(vertices, np.concatenate([faces, low, high]), normals)
 
 
 def sphere(radius: float) -> Solid:
     """A sphere [m]."""
-    down = np.linspace(0, np.pi, SEGMENTS // 2 + 1)[:, None]
-    angle = np.linspace(0, 2 * np.pi, SEGMENTS + 1)
+    down = np.linspace(0, np.pi, _SEGMENTS // 2 + 1)[:, None]
+    angle = np.linspace(0, 2 * np.pi, _SEGMENTS + 1)
     normals = np.stack(
         np.broadcast_arrays(np.sin(down) * np.cos(angle), np.sin(down) * np.sin(angle), np.cos(down)), axis=-1
     )
-    i, j = np.mgrid[: SEGMENTS // 2, :SEGMENTS]
-    width = SEGMENTS + 1
+    i, j = np.mgrid[: _SEGMENTS // 2, :_SEGMENTS]
+    width = _SEGMENTS + 1
     quads = np.stack(
         [i * width + j, (i + 1) * width + j, (i + 1) * width + j + 1, i * width + j + 1], axis=-1
     )
@@ -118,14 +128,13 @@ def capsule(end: ArrayLike, radius: float) -> Solid:
     return joined([ball, rod, ball.placed(translation(*tip))])
 
 
-Numbers = dict[tuple[tuple[int, ...], int], int]
+_Numbers = dict[tuple[tuple[int, ...], int], int]
 """Signs of a box's corner and the axis of a face there -> number of the vertex."""
 
 
-@cache
 def _box_pattern() -> tuple[Array, Array, Index]:
     """What all boxes share: the corners' signs, the normals, the faces."""
-    number: Numbers = {(signs, axis): 0 for signs in product((-1, 1), repeat=3) for axis in range(3)}
+    number: _Numbers = {(signs, axis): 0 for signs in product((-1, 1), repeat=3) for axis in range(3)}
     number = {key: k for k, key in enumerate(number)}
     signs = np.array([key[0] for key in number], dtype=float)
     normals = np.array([np.eye(3)[axis] * corner[axis] for corner, axis in number])
@@ -133,14 +142,14 @@ def _box_pattern() -> tuple[Array, Array, Index]:
     return signs, normals, _triangles(signs + normals / 2, polygons)
 
 
-def _box_faces(number: Numbers) -> Iterable[list[int]]:
+def _box_faces(number: _Numbers) -> Iterable[list[int]]:
     for axis, sign in product(range(3), (-1, 1)):
         corners = [signs for signs, a in number if a == axis and signs[axis] == sign]
         a, b, c, d = (number[signs, axis] for signs in corners)
         yield [a, b, d, c]
 
 
-def _box_edges(number: Numbers) -> Iterable[list[int]]:
+def _box_edges(number: _Numbers) -> Iterable[list[int]]:
     for along in range(3):
         one, two = (axis for axis in range(3) if axis != along)
         for signs in (s for s, a in number if a == along and s[along] == -1):
@@ -148,7 +157,7 @@ def _box_edges(number: Numbers) -> Iterable[list[int]]:
             yield [number[signs, one], number[signs, two], number[other, two], number[other, one]]
 
 
-def _box_corners(number: Numbers) -> Iterable[list[int]]:
+def _box_corners(number: _Numbers) -> Iterable[list[int]]:
     for signs in dict.fromkeys(signs for signs, _ in number):
         yield [number[signs, axis] for axis in range(3)]
 
@@ -162,3 +171,6 @@ def _triangles(vertices: Array, polygons: Iterable[list[int]]) -> Index:
             outward = np.cross(vertices[b] - vertices[a], vertices[c] - vertices[a]) @ vertices[a]
             faces.append([a, b, c] if outward > 0 else [a, c, b])
     return np.array(faces)
+
+
+_BOX_SIGNS, _BOX_NORMALS, _BOX_FACES = _box_pattern()

@@ -9,10 +9,10 @@ import numpy as np
 from exo_pin.arrays import Array, Index
 from exo_pin.viewer.meshes.solids import Solid
 
-CREASE = np.cos(np.radians(38.0))
-"""Index that meet at a sharper angle show an edge (a choice)."""
+_CREASE = np.cos(np.radians(38.0))
+"""Faces that meet at a sharper angle show an edge (a choice)."""
 
-STIFF = 1e-3
+_WEAK_PLANES = 1e-3
 """Directions in which a cell's planes say less than this share of the most are left at the mean."""
 
 
@@ -79,7 +79,7 @@ def thinned(vertices: Array, faces: Index, cell: float) -> tuple[Array, Index]:
     mean = np.stack([np.bincount(index, vertices[:, k]) for k in range(3)], axis=1) / count[:, None]
     corners = index[faces]
     kept = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
-    return _pulled(mean, vertices, faces, corners, cell), np.unique(corners[kept], axis=0)
+    return _moved_to_planes(mean, vertices, faces, corners, cell), np.unique(corners[kept], axis=0)
 
 
 def shaded(vertices: Array, faces: Index) -> Solid:
@@ -97,14 +97,14 @@ def shaded(vertices: Array, faces: Index) -> Solid:
     start = np.repeat(np.cumsum(count) - count, count)
     other = np.repeat(start - (np.cumsum(group) - group), group) + np.arange(len(one))
     mine, its = corner[one] // 3, corner[other] // 3
-    near = np.einsum("pk,pk->p", unit[mine], unit[its]) > CREASE
+    near = np.einsum("pk,pk->p", unit[mine], unit[its]) > _CREASE
     sums = [np.bincount(corner[one[near]], area[its[near], k], faces.size) for k in range(3)]
     normals = np.stack(sums, axis=1).astype(float)
     long = np.linalg.norm(normals, axis=1, keepdims=True)
     return _joined(vertices, faces, normals / np.maximum(long, 1e-30))
 
 
-def _pulled(mean: Array, vertices: Array, faces: Index, corners: Index, cell: float) -> Array:
+def _moved_to_planes(mean: Array, vertices: Array, faces: Index, corners: Index, cell: float) -> Array:
     """The means moved to where the planes of the faces at each cell meet best, within the cell."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     n = np.cross(b - a, c - a) / cell**2
@@ -112,11 +112,11 @@ def _pulled(mean: Array, vertices: Array, faces: Index, corners: Index, cell: fl
     outer = (n[:, :, None] * n[:, None, :]).reshape(-1, 9)
     for k in range(3):
         at = corners[:, k]
-        pull = n * np.einsum("fk,fk->f", n, a - mean[at])[:, None]
+        offset = n * np.einsum("fk,fk->f", n, a - mean[at])[:, None]
         A += np.stack([np.bincount(at, outer[:, j], len(mean)) for j in range(9)], axis=1)
-        r += np.stack([np.bincount(at, pull[:, j], len(mean)) for j in range(3)], axis=1)
+        r += np.stack([np.bincount(at, offset[:, j], len(mean)) for j in range(3)], axis=1)
     values, axes = np.linalg.eigh(A.reshape(-1, 3, 3))
-    strong = values > STIFF * np.maximum(values[:, -1:], 1e-30)
+    strong = values > _WEAK_PLANES * np.maximum(values[:, -1:], 1e-30)
     along = np.einsum("vkj,vk->vj", axes, r)
     step = np.einsum("vkj,vj->vk", axes, np.where(strong, along / np.where(strong, values, 1.0), 0.0))
     return np.asarray(mean + np.where(np.abs(step).max(axis=1, keepdims=True) <= cell, step, 0.0))

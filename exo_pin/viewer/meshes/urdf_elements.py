@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from typing import Literal
 
 import numpy as np
 
@@ -37,7 +38,13 @@ def solid(geometry: ET.Element | None) -> Solid | None:
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> Array:
-    """`(3, 3)` rotation by fixed-axis angles [rad]."""
+    """`(3, 3)` rotation by fixed-axis angles.
+
+    Args:
+        roll: About x, first [rad].
+        pitch: About y [rad].
+        yaw: About z, last [rad].
+    """
     (a, b, c), (s, t, u) = (map(f, (roll, pitch, yaw)) for f in (math.cos, math.sin))
     Rx = np.array([[1, 0, 0], [0, a, -s], [0, s, a]])
     Ry = np.array([[b, 0, t], [0, 1, 0], [-t, 0, b]])
@@ -54,7 +61,7 @@ def limits(joint: ET.Element) -> tuple[float, float] | None:
     return float(limit.get("lower", 0)), float(limit.get("upper", 0))
 
 
-def end(joint: ET.Element, which: str) -> str:
+def end(joint: ET.Element, which: Literal["parent", "child"]) -> str:
     """The `parent` or `child` link of a joint."""
     element = joint.find(which)
     if element is None or not element.get("link"):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import lru_cache
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,55 +20,100 @@ from exo_pin.viewer.meshes import mesh_files
 from exo_pin.viewer.meshes.solids import Color, Solid
 from exo_pin.viewer.meshes.thinning import shaded, thinned
 
-Triple = tuple[float, float, float]
+_Triple = tuple[float, float, float]
 
-FINENESS = 280
+_FINENESS = 280
 """Meshes are thinned to cells of this share of the robot's size: 6 mm for a person's."""
 
-INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
+_INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
 """Names of folders that lie inside a package rather than being it."""
 
-KEPT = 256
-"""So many meshes stay in memory: several robots', or one robot's and its ghost's."""
-
-MANY = 3_000_000
+_MOST_TRIANGLES = 3_000_000
 """Triangles that are read at most; what comes then is left away."""
 
 
-class Meshes:
-    """Reads the meshes of one URDF; what cannot be had is counted in `missing`, with a reason."""
+@dataclass(frozen=True, eq=False)
+class ThinnedFile:
+    """A mesh file as it is drawn.
 
-    def __init__(self, urdf: Path | None, size: float, *, turned: bool = False) -> None:
+    Attributes:
+        triangles: Number of triangles in the file.
+        y_up: Whether the file says that its y points up.
+        parts: Its parts, thinned, each with its colour if it has one.
+    """
+
+    triangles: int
+    y_up: bool
+    parts: tuple[tuple[Solid, Color | None], ...]
+
+
+class ThinnedFiles:
+    """Reads and thins mesh files, each once: a robot and its ghost share them."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Path, _Triple, float, bool], ThinnedFile] = {}
+
+    def read(self, path: Path, scale: _Triple, cell: float, *, turned: bool) -> ThinnedFile:
+        """A mesh file.
+
+        Args:
+            path: Of the file.
+            scale: Factors along x, y, z; a negative product mirrors.
+            cell: Side of a cell in which vertices become one [m].
+            turned: What has y up is turned to z up.
+
+        Raises:
+            FormatError: It cannot be read, is of no known kind, or is damaged.
+        """
+        key = path, scale, cell, turned
+        if key not in self._known:
+            parts = mesh_files.read(path)
+            self._known[key] = ThinnedFile(
+                sum(len(part.faces) for part in parts),
+                any(part.y_up for part in parts),
+                tuple((_thin(part, scale, cell, turned), part.color) for part in parts),
+            )
+        return self._known[key]
+
+
+class Meshes:
+    """Finds and reads the meshes of one URDF; what cannot be had is counted in `missing`, with a reason."""
+
+    def __init__(
+        self, urdf: Path | None, size: float, files: ThinnedFiles | None = None, *, turned: bool = False
+    ) -> None:
         """Read on demand.
 
         Args:
             urdf: The URDF's path; None: it has no meshes.
             size: Of the robot [m].
+            files: Files that were read before.
             turned: Apply COLLADA's `up_axis`: what has y up is turned to z up.
         """
+        self.files = files or ThinnedFiles()
         self.turned, self.y_up = turned, False
         self.urdf = None if urdf is None else Path(os.path.realpath(urdf))
-        self.cell = size / FINENESS
+        self.cell = size / _FINENESS
         self.missing: dict[str, str] = {}
         self.triangles = 0
 
-    def solids(self, name: str, scale: Triple) -> list[tuple[Solid, Color | None]]:
+    def solids(self, name: str, scale: _Triple) -> list[tuple[Solid, Color | None]]:
         """The parts of a mesh by its file name in the URDF, each with its colour if it has one."""
         path = self.find(name)
         if path is None:
             self.missing[name] = "not found in the URDF's package"
             return []
         try:
-            triangles, y_up, parts = _light(path, path.stat().st_mtime_ns, scale, self.cell, self.turned)
+            file = self.files.read(path, scale, self.cell, turned=self.turned)
         except FormatError as error:
             self.missing[name] = error.why
             return []
-        self.y_up = self.y_up or y_up
-        self.triangles += triangles
-        if self.triangles > MANY:
-            self.missing[name] = f"more than {MANY} triangles in all"
+        self.y_up = self.y_up or file.y_up
+        self.triangles += file.triangles
+        if self.triangles > _MOST_TRIANGLES:
+            self.missing[name] = f"more than {_MOST_TRIANGLES} triangles in all"
             return []
-        return list(parts)
+        return list(file.parts)
 
     def find(self, name: str) -> Path | None:
         """Where a file name of the URDF leads, or None where that is outside of what belongs to the URDF."""
@@ -91,7 +136,7 @@ class Meshes:
 
 def _own(urdf: Path) -> Iterator[Path]:
     """The folders in which a URDF may name files by their place."""
-    yield urdf.parent.parent if urdf.parent.name.lower() in INNER else urdf.parent
+    yield urdf.parent.parent if urdf.parent.name.lower() in _INNER else urdf.parent
     for folder in urdf.parents:
         if (folder / "package.xml").is_file():
             yield folder
@@ -126,17 +171,7 @@ def _search_path(variable: str) -> list[Path]:
     return [Path(root) for root in os.environ.get(variable, "").split(os.pathsep) if root]
 
 
-@lru_cache(maxsize=KEPT)
-def _light(
-    path: Path, changed: int, scale: Triple, cell: float, turned: bool
-) -> tuple[int, bool, tuple[tuple[Solid, Color | None], ...]]:
-    """Triangles in the file, whether it has y up, and its parts, thinned; read again when it has changed."""
-    parts = mesh_files.read(path)
-    solids = tuple((_thin(part, scale, cell, turned), part.color) for part in parts)
-    return sum(len(part.faces) for part in parts), any(part.y_up for part in parts), solids
-
-
-def _thin(part: mesh_files.MeshPart, scale: Triple, cell: float, turned: bool) -> Solid:
+def _thin(part: mesh_files.MeshPart, scale: _Triple, cell: float, turned: bool) -> Solid:
     vertices = part.vertices
     if part.y_up and turned:
         vertices = vertices[:, [0, 2, 1]] * (1, -1, 1)

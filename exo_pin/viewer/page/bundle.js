@@ -1,4 +1,4 @@
-/* Bundle: the one binary that both transports carry.
+/* Bundle: the binary form of a scene, which both transports carry.
    gzip of chunks [u32 length, bytes]: a JSON header, the meshcat commands, then the arrays it names. */
 
 const ARRAYS = { f4: Float32Array, f8: Float64Array };

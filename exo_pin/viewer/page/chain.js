@@ -1,5 +1,5 @@
 /* Chain: forward kinematics by the scene itself. Every link is a node inside its parent's node,
-   so turning the joint nodes is all there is to do. */
+   so rotating the joint nodes suffices. */
 
 class Chain {
   constructor(tree, spec) {
@@ -24,8 +24,8 @@ class Chain {
     });
   }
 
-  /** Brings the nodes' world matrices up to date, which else happens at the next picture. */
-  settle() {
+  /** Updates the nodes' world matrices, which else happens at the next picture. */
+  updateMatrices() {
     this.root.updateWorldMatrix(true, true);
   }
 

@@ -1,4 +1,4 @@
-/* Clock: where in the walk we are. Wall clock in, time out; it knows nothing of pictures. */
+/* Clock: the playback's time, advanced by the wall clock. */
 
 class Clock {
   constructor(duration) {

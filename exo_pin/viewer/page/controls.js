@@ -1,4 +1,4 @@
-/* Controls: buttons, slider and keys. They only call the player; the player tells them what to show. */
+/* Controls: buttons, time slider and keys. They call the player, and show its state. */
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 1.5, 2];
 
@@ -83,9 +83,9 @@ class Controls {
     this.part("seek").style.setProperty("--share", this.part("seek").value);
     const { percent, cycle } = phaseWords(motion, time);
     set("seek", "aria-valuetext", `${time.toFixed(2)} s, ${percent} ${cycle}`);
-    this.tell("percent", percent);
-    this.tell("cycle", cycle);
-    this.tell("seconds", `${time.toFixed(2)} / ${duration.toFixed(2)} s`);
+    this.setText("percent", percent);
+    this.setText("cycle", cycle);
+    this.setText("seconds", `${time.toFixed(2)} / ${duration.toFixed(2)} s`);
     this.offer(speed);
     this.part("speed").value = String(speed);
     for (const button of this.part("cameras").children) {
@@ -93,7 +93,7 @@ class Controls {
     }
   }
 
-  tell(id, text) {
+  setText(id, text) {
     if (this.part(id).textContent !== text) this.part(id).textContent = text;
   }
 }

@@ -1,88 +1,88 @@
-/* Grips: a handle at each foot, to be dragged, or focused and moved by the arrow keys. The legs follow by inverse
-   kinematics; a foot that cannot get there goes as near as it can, and its handle says how much is missing. */
+/* Handles: one at each foot, to be dragged, or focused and moved by the arrow keys. The legs follow by inverse
+   kinematics; a foot that cannot reach its target goes as near as it can, and a line shows what is missing. */
 
 const NUDGE = 0.01; // [m] per arrow key
-const FAREST = 3; // a target is at most so far from the hips [m]
+const FARTHEST = 3; // a target is at most so far from the hips [m]
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-class Grips {
-  /** ask(wish) is called with {feet, q} while a foot is held; let() when the walk shall go on as it was. */
-  constructor(holder, stage, { grab, ask, release }) {
-    Object.assign(this, { holder, stage, grab, ask, release });
-    this.grips = [];
-    this.held = null; // the grip in the hand
-    this.last = null; // the one that was last in it
+class Handles {
+  /** onGrab() is called when a drag begins, onMove({feet, q}) while it lasts, onRelease() when the walk resumes. */
+  constructor(holder, stage, { onGrab, onMove, onRelease }) {
+    Object.assign(this, { holder, stage, onGrab, onMove, onRelease });
+    this.handles = [];
+    this.held = null; // the handle that is being dragged
+    this.last = null; // the one that was dragged last
   }
 
   load(chain, specs) {
     this.chain = chain;
     this.held = null;
-    this.grips = specs.map((spec) => this.grip(spec));
-    this.holder.replaceChildren(...this.grips.flatMap(({ tether, button }) => [tether, button]));
+    this.handles = specs.map((spec) => this.handle(spec));
+    this.holder.replaceChildren(...this.handles.flatMap(({ tether, button }) => [tether, button]));
   }
 
-  grip({ link, side }) {
+  handle({ link, side }) {
     const button = document.createElement("button");
     const tether = document.createElement("div");
-    const grip = { link, side, button, tether, node: this.chain.links[link], target: null };
+    const handle = { link, side, button, tether, node: this.chain.links[link], target: null };
     Object.assign(button, { type: "button", className: side, title: "Drag the foot (shift: along the ground)" });
     button.setAttribute("aria-label", `${side} foot: drag, or arrow keys; shift: along the ground; escape: let go`);
     button.setAttribute("aria-describedby", "reach");
     tether.className = side;
-    button.onpointerdown = (event) => this.take(event, grip);
-    button.onpointermove = (event) => this.drag(event, grip);
-    button.onpointerup = button.onpointercancel = () => this.drop(grip);
-    button.onkeydown = (event) => this.key(event, grip);
-    button.onblur = () => this.drop(grip);
-    return grip;
+    button.onpointerdown = (event) => this.take(event, handle);
+    button.onpointermove = (event) => this.drag(event, handle);
+    button.onpointerup = button.onpointercancel = () => this.drop(handle);
+    button.onkeydown = (event) => this.key(event, handle);
+    button.onblur = () => this.drop(handle);
+    return handle;
   }
 
-  take(event, grip) {
+  take(event, handle) {
     event.preventDefault();
-    grip.button.focus({ preventScroll: true });
-    grip.button.setPointerCapture(event.pointerId);
-    this.hold(grip);
-    grip.start = grip.target.place.clone();
-    grip.from = [event.clientX, event.clientY];
-    grip.dragged = true;
+    handle.button.focus({ preventScroll: true });
+    handle.button.setPointerCapture(event.pointerId);
+    this.hold(handle);
+    handle.start = handle.target.place.clone();
+    handle.from = [event.clientX, event.clientY];
+    handle.dragged = true;
   }
 
-  /** From here on both feet have a target: the one in the hand moves, the other stays. */
-  hold(grip) {
-    if (this.held === grip) return;
-    this.grab();
-    this.chain.settle();
-    this.held = this.last = grip;
-    for (const each of this.grips) each.target = split(each.node.matrixWorld);
+  /** From here on both feet have a target: the dragged one moves, the other stays. */
+  hold(handle) {
+    if (this.held === handle) return;
+    this.onGrab();
+    this.chain.updateMatrices();
+    this.held = this.last = handle;
+    for (const each of this.handles) each.target = split(each.node.matrixWorld);
   }
 
-  drag(event, grip) {
-    if (!grip.dragged) return;
-    const from = this.onPlane(grip.from, grip.start, event.shiftKey);
-    const to = this.onPlane([event.clientX, event.clientY], grip.start, event.shiftKey);
-    if (from && to) this.move(grip, grip.start.clone().add(to).sub(from));
+  drag(event, handle) {
+    if (!handle.dragged) return;
+    const from = this.onPlane(handle.from, handle.start, event.shiftKey);
+    const to = this.onPlane([event.clientX, event.clientY], handle.start, event.shiftKey);
+    if (from && to) this.move(handle, handle.start.clone().add(to).sub(from));
   }
 
-  drop(grip) {
-    if (this.held !== grip) return;
-    grip.dragged = false;
+  drop(handle) {
+    if (this.held !== handle) return;
+    handle.dragged = false;
     this.held = null;
     this.show();
   }
 
-  key(event, grip) {
+  key(event, handle) {
     const arrow = ARROWS[event.key];
     if (event.key === "Escape") {
-      this.drop(grip);
-      this.release();
+      this.drop(handle);
+      this.onRelease();
     }
     if (!arrow || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation(); // elsewhere arrows step through the walk
-    this.hold(grip);
+    this.hold(handle);
     const [right, up] = this.axes(event.shiftKey);
     const step = right.multiplyScalar(arrow[0]).add(up.multiplyScalar(arrow[1])).multiplyScalar(NUDGE);
-    this.move(grip, grip.target.place.clone().add(step));
+    this.move(handle, handle.target.place.clone().add(step));
   }
 
   /** Two directions: of the picture's plane, or along the ground. */
@@ -107,11 +107,11 @@ class Grips {
     return ray.ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(normal, point), new Vector3());
   }
 
-  move(grip, place) {
+  move(handle, place) {
     const hips = new MeshCat.THREE.Vector3().setFromMatrixPosition(this.chain.root.matrixWorld);
-    grip.target.place = place.sub(hips).clampLength(0, FAREST).add(hips);
-    const feet = Object.fromEntries(this.grips.map(({ link, target }) => [link, this.inRoot(target)]));
-    this.ask({ feet, q: this.chain.q });
+    handle.target.place = place.sub(hips).clampLength(0, FARTHEST).add(hips);
+    const feet = Object.fromEntries(this.handles.map(({ link, target }) => [link, this.inRoot(target)]));
+    this.onMove({ feet, q: this.chain.q });
     this.show();
   }
 
@@ -122,19 +122,19 @@ class Grips {
     return [...local.place.toArray(), ...local.turn.toArray()];
   }
 
-  /** Puts the handles where the feet are, or, in the hand, where the foot shall go. */
+  /** Puts the handles where the feet are; the dragged one, where its foot shall go. */
   show(misses = null) {
-    for (const grip of this.grips) {
-      const foot = this.pixel(new MeshCat.THREE.Vector3().setFromMatrixPosition(grip.node.matrixWorld));
-      const held = this.held === grip;
-      const spot = held ? this.pixel(grip.target.place) : foot;
-      grip.button.hidden = !spot;
-      grip.tether.hidden = !held || !spot || !foot;
+    for (const handle of this.handles) {
+      const foot = this.pixel(new MeshCat.THREE.Vector3().setFromMatrixPosition(handle.node.matrixWorld));
+      const held = this.held === handle;
+      const spot = held ? this.pixel(handle.target.place) : foot;
+      handle.button.hidden = !spot;
+      handle.tether.hidden = !held || !spot || !foot;
       if (!spot) continue;
-      grip.button.style.transform = `translate(${spot.x}px, ${spot.y}px)`;
-      grip.button.style.zIndex = String(Math.round(1e4 * (1 - spot.depth)));
-      if (misses) grip.button.classList.toggle("short", held && misses[grip.link][0] + misses[grip.link][1] > 0);
-      if (!grip.tether.hidden) connect(grip.tether, foot, spot);
+      handle.button.style.transform = `translate(${spot.x}px, ${spot.y}px)`;
+      handle.button.style.zIndex = String(Math.round(1e4 * (1 - spot.depth)));
+      if (misses) handle.button.classList.toggle("short", held && misses[handle.link][0] + misses[handle.link][1] > 0);
+      if (!handle.tether.hidden) connect(handle.tether, foot, spot);
     }
   }
 

@@ -1,4 +1,4 @@
-/* Main: inflates meshcat, opens the player, and hands it the transport that the page was built for. */
+/* Main: inflates meshcat, makes the player, and starts the transport that the page was built for. */
 
 async function main() {
   const text = (id) => document.getElementById(id).textContent;

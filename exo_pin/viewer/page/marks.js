@@ -9,7 +9,7 @@ class Marks {
     this.belt = marks.belt ? stage.node(marks.belt.path) : null;
   }
 
-  /** A pose by hand has no centre of mass, no contact that we know of. */
+  /** Hides all marks: for a pose by hand neither centre of mass nor contact is known. */
   hide() {
     for (const node of [this.com, this.ground]) node.visible = false;
     for (const path of Object.values(this.marks.contact)) this.stage.show(path, false);

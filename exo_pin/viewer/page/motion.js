@@ -53,7 +53,7 @@ class Motion {
     return this.time[Math.min(Math.max(k, 0), this.count - 1)];
   }
 
-  /** The times of an array's rows: its own where it has some. */
+  /** The times of an array's rows: its own array of times if it has one, else the walk's. */
   timesOf(name) {
     const own = this.arrays[`${name}_time`];
     return own ? own.data : this.time;

@@ -7,7 +7,7 @@ import gzip
 import html as markup
 import json
 import re
-from functools import cache
+from dataclasses import dataclass
 from importlib import resources
 from importlib.util import find_spec
 from pathlib import Path
@@ -42,28 +42,56 @@ SCRIPTS = (
 """The page's scripts in the order in which they are joined."""
 
 
-def page(title: str, bundle: bytes = b"", *, connect: str = "'none'") -> str:
-    """The whole page as text.
+@dataclass(frozen=True)
+class PageTemplate:
+    """The parts that all pages share; they are read from files once a template.
 
-    Args:
-        title: Shown until the scene arrives; any characters.
-        bundle: A packed scene to embed; empty for a page that a server feeds.
-        connect: Where scripts may connect to (Content-Security-Policy `connect-src`).
-
-    Returns:
-        HTML that loads nothing else: style, scripts and meshcat's viewer are in it, and its own policy
-        forbids every request except to `connect`.
+    Attributes:
+        shell: HTML with a placeholder `{{name}}` for every other part.
+        style: CSS.
+        script: JavaScript.
+        engine: meshcat's viewer, compressed, as base64.
+        licences: Text.
     """
-    parts = {
-        "title": markup.escape(title),
-        "policy": markup.escape(policy(connect)),
-        "style": _file("style.css"),
-        "script": "\n".join(["'use strict';", *map(_file, SCRIPTS)]),
-        "licences": markup.escape(licences()),
-        "engine": engine(),
-        "bundle": base64.b64encode(bundle).decode(),
-    }
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _file("index.html"))
+
+    shell: str
+    style: str
+    script: str
+    engine: str
+    licences: str
+
+    @classmethod
+    def load(cls) -> PageTemplate:
+        """Read the page's files and those of meshcat.
+
+        Raises:
+            ExoPinError: meshcat is not installed.
+        """
+        script = "\n".join(["'use strict';", *map(_file, SCRIPTS)])
+        return cls(_file("index.html"), _file("style.css"), script, _engine(), _licences())
+
+    def page(self, title: str, bundle: bytes = b"", *, connect: str = "'none'") -> str:
+        """The whole page as text.
+
+        Args:
+            title: Shown until the scene arrives; any characters.
+            bundle: A packed scene to embed; empty for a page that a server feeds.
+            connect: Where scripts may connect to (Content-Security-Policy `connect-src`).
+
+        Returns:
+            HTML that loads nothing else: style, scripts and meshcat's viewer are in it, and its own policy
+            forbids every request except to `connect`.
+        """
+        parts = {
+            "title": markup.escape(title),
+            "policy": markup.escape(policy(connect)),
+            "style": self.style,
+            "script": self.script,
+            "licences": markup.escape(self.licences),
+            "engine": self.engine,
+            "bundle": base64.b64encode(bundle).decode(),
+        }
+        return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], self.shell)
 
 
 def policy(connect: str = "'none'") -> str:
@@ -74,15 +102,13 @@ def policy(connect: str = "'none'") -> str:
     )
 
 
-@cache
-def engine() -> str:
+def _engine() -> str:
     """The viewer of meshcat, from the installed package, compressed, as base64."""
     source = (_meshcat() / "dist" / "main.min.js").read_bytes()
     return base64.b64encode(gzip.compress(source, compresslevel=9, mtime=0)).decode()
 
 
-@cache
-def licences() -> str:
+def _licences() -> str:
     """The licences of meshcat's viewer, of all that is bundled in it, and of the wearer's figure."""
     folder = _meshcat()
     texts = ["meshcat", (folder / "LICENSE").read_text("utf-8")]
@@ -109,6 +135,5 @@ def _meshcat() -> Path:
     return Path(spec.submodule_search_locations[0]) / "viewer"
 
 
-@cache
 def _file(name: str) -> str:
     return (resources.files("exo_pin.viewer.page") / name).read_text("utf-8")

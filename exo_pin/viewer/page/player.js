@@ -1,6 +1,6 @@
-/* Player: joins clock, motion, stage, plots and controls; the only place where they meet. */
+/* Player: connects clock, motion, stage, plots, handles and controls. */
 
-const GRIPS_HINT = "The rings at the feet can be dragged, or moved by the arrow keys: the legs follow.";
+const HANDLES_HINT = "The rings at the feet can be dragged, or moved by the arrow keys: the legs follow.";
 const REPORT = 500; // [ms] between reports of the playback's state
 
 class Player {
@@ -18,7 +18,7 @@ class Player {
     this.controls = new Controls(this);
     this.transport = null;
     this.drawn = null; // time of the last picture
-    this.gone = [0, 0]; // how far the cameras have followed the walk [m]
+    this.followed = [0, 0]; // how far the cameras have followed the walk [m]
     if (this.stage) this.watchStage();
     part("show").hidden = part("cameras").hidden = !this.stage;
     part("webm").hidden = !Recorder.possible;
@@ -29,10 +29,10 @@ class Player {
       this.part("webm").setAttribute("aria-pressed", String(on));
       this.part("webm").textContent = on ? "Stop and save" : "Record WebM";
     });
-    this.grips = new Grips(this.part("grips"), this.stage, {
-      grab: () => this.grab(),
-      ask: (wish) => this.transport.ask(wish, (answer) => this.reached(answer)),
-      release: () => this.apply(),
+    this.handles = new Handles(this.part("handles"), this.stage, {
+      onGrab: () => this.grab(),
+      onMove: (request) => this.transport.solve(request, (answer) => this.reached(answer)),
+      onRelease: () => this.apply(),
     });
     new ResizeObserver(() => {
       this.stage.resize();
@@ -40,7 +40,7 @@ class Player {
     }).observe(this.part("pane"));
     this.stage.viewer.controls.addEventListener("start", () => (this.view = ""));
     this.stage.renderer.domElement.addEventListener("webglcontextlost", () => {
-      this.tell("The graphics card dropped the picture; reload the page to see it again.");
+      this.notify("The graphics card dropped the picture; reload the page to see it again.");
     });
   }
 
@@ -76,20 +76,20 @@ class Player {
     this.stage.load(header, commands);
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
-    this.sliders.load(header.chains[0], header.grips.length ? GRIPS_HINT : "");
+    this.sliders.load(header.chains[0], header.handles.length ? HANDLES_HINT : "");
     this.reach = new Reach(this.chains[0]);
-    this.grips.load(this.chains[0], header.grips);
+    this.handles.load(this.chains[0], header.handles);
     fillToggles(this.part("toggles"), header.groups, this.stage);
-    this.gone = [0, 0];
+    this.followed = [0, 0];
     this.look(this.view || "iso");
   }
 
-  /** Brings picture, plots and read-out to the clock's time. */
+  /** Updates picture, plots and status to the clock's time. */
   apply() {
     const t = this.clock.time;
     const at = this.motion.at(t);
     this.byHand = false;
-    this.say("");
+    this.showStatus("");
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
@@ -105,9 +105,9 @@ class Player {
   follow(at) {
     if (!this.header.follow) return;
     const [x, y] = this.motion.row("base", at);
-    const gone = [x - this.motion.arrays.base.data[0], y - this.motion.arrays.base.data[1]];
-    follow(this.stage.viewer, gone[0] - this.gone[0], gone[1] - this.gone[1]);
-    this.gone = gone;
+    const moved = [x - this.motion.arrays.base.data[0], y - this.motion.arrays.base.data[1]];
+    follow(this.stage.viewer, moved[0] - this.followed[0], moved[1] - this.followed[1]);
+    this.followed = moved;
   }
 
   frame(now) {
@@ -115,7 +115,7 @@ class Player {
       this.clock.tick(now);
       if (this.clock.time !== this.drawn) this.apply();
       this.controls.show(this);
-      if (this.stage && this.stage.draw()) this.grips.show();
+      if (this.stage && this.stage.draw()) this.handles.show();
       if (now - (this.reported || 0) > REPORT) this.report(now);
     }
     requestAnimationFrame((next) => this.frame(next));
@@ -152,12 +152,12 @@ class Player {
     const { base } = this.chains[0].spec;
     this.chains[0].set([...q], this.motion.pose(base, this.motion.at(this.clock.time)));
     this.marks.hide();
-    this.say("posed by hand; the curves are the walk's");
+    this.showStatus("posed by hand; the curves are the walk's");
     this.stage.viewer.set_dirty();
   }
 
-  /** What the hand should know, or nothing; the curves step back while the walk is not what is shown. */
-  say(text, short = false) {
+  /** Shows the result of posing by hand, or nothing; the curves fade while the walk is not what is shown. */
+  showStatus(text, short = false) {
     const status = this.part("reach");
     status.textContent = text;
     status.hidden = !text;
@@ -165,22 +165,22 @@ class Player {
     this.part("plots").classList.toggle("aside", Boolean(text));
   }
 
-  /** A hand takes a foot: from here on, what is shown is no longer the walk. */
+  /** A drag of a foot begins: from here on, what is shown is no longer the walk. */
   grab() {
     this.clock.play(false);
     if (this.drawn !== this.clock.time) this.apply();
     this.byHand = true;
   }
 
-  /** Inverse kinematics has answered the hand; an answer that comes after the walk went on is too late. */
+  /** Inverse kinematics has answered; an answer that comes after the walk went on is ignored. */
   reached({ q, misses }) {
     if (!this.byHand) return;
     this.poseByHand(q);
     this.sliders.show(q);
-    this.grips.show(misses);
-    const { last } = this.grips;
-    const said = missing(misses[last.link]);
-    this.say(`${last.side} foot ${said}`, said !== "reached");
+    this.handles.show(misses);
+    const { last } = this.handles;
+    const result = missing(misses[last.link]);
+    this.showStatus(`${last.side} foot ${result}`, result !== "reached");
   }
 
   toggle() {
@@ -220,10 +220,10 @@ class Player {
 
   look(name) {
     this.view = name;
-    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes, this.gone);
+    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes, this.followed);
   }
 
-  tell(text) {
+  notify(text) {
     this.part("notice").textContent = text;
     this.part("notice").hidden = !text;
   }

@@ -85,8 +85,8 @@ class Plot {
     pen.lineTo(x, this.y.from);
     pen.stroke();
     const row = this.motion.row(this.source.values, at);
-    const said = this.spec.series.map((series, k) => this.mark(pen, x, row[series.column], series, k));
-    this.canvas.setAttribute("aria-label", `${this.spec.title}: ${said.join(", ")}`);
+    const texts = this.spec.series.map((series, k) => this.mark(pen, x, row[series.column], series, k));
+    this.canvas.setAttribute("aria-label", `${this.spec.title}: ${texts.join(", ")}`);
   }
 
   mark(pen, x, raw, series, k) {

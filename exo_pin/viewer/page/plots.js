@@ -45,7 +45,7 @@ class Plots {
     const group = this.groups[k];
     this.holder.hidden = !group;
     if (this.other) this.other.hidden = Boolean(group);
-    this.tellWindow();
+    this.showWindow();
     if (!group) return;
     document.getElementById("dashed").hidden = !group.reference;
     document.getElementById("dotted").hidden = !group.compared;
@@ -83,14 +83,14 @@ class Plots {
     this.moved();
   }
 
-  /** The window is another one: everything is painted again. */
+  /** Paints everything again after the window has moved. */
   moved() {
-    this.tellWindow();
+    this.showWindow();
     for (const plot of this.plots) plot.paint();
     this.draw(...this.last);
   }
 
-  tellWindow() {
+  showWindow() {
     const { window: shown, motion } = this;
     const useless = motion.periodic || (shown.whole && motion.duration <= AT_FIRST); // the keys work all the same
     document.getElementById("window").hidden = useless || this.holder.hidden;

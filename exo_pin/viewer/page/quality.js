@@ -8,8 +8,8 @@ function isSoftware(gl) {
 
 /** "low" or "high"; `#quality=high` in the address overrides the guess. */
 function chooseQuality(gl) {
-  const asked = new URLSearchParams(location.hash.slice(1)).get("quality");
-  return asked === "low" || asked === "high" ? asked : isSoftware(gl) ? "low" : "high";
+  const chosen = new URLSearchParams(location.hash.slice(1)).get("quality");
+  return chosen === "low" || chosen === "high" ? chosen : isSoftware(gl) ? "low" : "high";
 }
 
 /** A room with lamps, so that metal has something to reflect. */
@@ -42,8 +42,8 @@ function plainMaterials(scene) {
     if (!old || !old.isMeshStandardMaterial) return;
     if (!plain.has(old)) {
       const { color, emissive, opacity, transparent, side, depthWrite, depthFunc } = old;
-      const looks = { color, emissive, opacity, transparent, side, depthWrite, depthFunc };
-      plain.set(old, new MeshLambertMaterial(looks));
+      const properties = { color, emissive, opacity, transparent, side, depthWrite, depthFunc };
+      plain.set(old, new MeshLambertMaterial(properties));
       old.dispose();
     }
     node.material = plain.get(old);

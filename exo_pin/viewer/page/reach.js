@@ -1,10 +1,10 @@
-/* Reach: the page's own inverse kinematics, for a page without Python behind it. Damped least squares within
-   the joint limits (exo_pin/ik/least_squares/single_sample.py in small), on the scene's own nodes. Speaks as exo_pin/viewer/live/foot_drag.py does. */
+/* Reach: inverse kinematics in the page, for a page without Python behind it. Damped least squares within the
+   joint limits on the scene's own nodes; requests and answers are those of exo_pin/viewer/live/messages.py. */
 
-const TURN = 0.1; // what a rotation error of 1 rad counts in metres: so far it moves the sole's points on average
-const THERE = 1e-6; // a foot this near to its target [m, rad] is there
-const REACH_STEPS = 60;
-const STILL = 1e-9; // a step this small changes nothing any more [rad, m]
+const ROTATION_WEIGHT = 0.1; // [m/rad] a rotation error of 1 rad moves the sole's points about so far
+const TOLERANCE = 1e-6; // a foot this near to its target [m, rad] has reached it
+const MAX_ITERATIONS = 60;
+const SMALLEST_STEP = 1e-9; // the iteration ends at a smaller step [rad, m]
 
 class Reach {
   constructor(chain) {
@@ -15,26 +15,26 @@ class Reach {
   /** {feet: {link: pose in the root}, q} -> {q, misses: {link: [distance, angle]}}; leaves the chain at q. */
   answer({ feet, q }) {
     const { base } = this.chain;
-    this.chain.settle();
+    this.chain.updateMatrices();
     const targets = Object.entries(feet).map(([link, pose]) => ({ link, ...this.target(pose) }));
     const at = (angles) => {
       this.chain.set(angles, base);
-      this.chain.settle();
+      this.chain.updateMatrices();
       return this.state(targets);
     };
     let best = q.map((angle, k) => clamp(angle, this.chain.joints[k].limits));
     let now = at(best);
-    for (let step = 0, factor = 1; step < REACH_STEPS && now.cost > THERE ** 2 / 4; step++) {
+    for (let step = 0, factor = 1; step < MAX_ITERATIONS && now.cost > TOLERANCE ** 2 / 4; step++) {
       const x = this.step(best, now, factor * now.cost + 1e-13);
-      if (Math.max(...x.map(Math.abs)) < STILL) break;
+      if (Math.max(...x.map(Math.abs)) < SMALLEST_STEP) break;
       const trial = best.map((angle, k) => clamp(angle + x[k], this.chain.joints[k].limits));
       const next = at(trial);
       factor *= next.cost < now.cost ? 0.25 : 4;
       if (next.cost < now.cost) [best, now] = [trial, next];
     }
     now = at(best);
-    const there = (miss) => (miss.every((error) => error <= THERE) ? [0, 0] : miss);
-    return { q: best, misses: Object.fromEntries(now.misses.map((miss, f) => [targets[f].link, there(miss)])) };
+    const rounded = (miss) => (miss.every((error) => error <= TOLERANCE) ? [0, 0] : miss);
+    return { q: best, misses: Object.fromEntries(now.misses.map((miss, f) => [targets[f].link, rounded(miss)])) };
   }
 
   target([x, y, z, ...turn]) {
@@ -43,7 +43,7 @@ class Reach {
     return split(this.chain.root.matrixWorld.clone().multiply(pose));
   }
 
-  /** Errors e, their derivatives J by joint, their sum of squares, and the misses of each foot. */
+  /** Errors e, rows of their Jacobian J by joint, their sum of squares, and the misses of each foot. */
   state(targets) {
     const { Vector3 } = MeshCat.THREE;
     const state = { e: [], J: this.free.map(() => []), misses: [] };
@@ -52,15 +52,15 @@ class Reach {
       const here = split(foot.matrixWorld);
       const rotation = turned(here.turn, turn);
       const apart = place.clone().sub(here.place);
-      state.e.push(...apart.toArray(), ...rotation.toArray().map((part) => TURN * part));
+      state.e.push(...apart.toArray(), ...rotation.toArray().map((part) => ROTATION_WEIGHT * part));
       state.misses.push([apart.length(), rotation.length()]);
       this.free.forEach(({ node, kind, k, path }, row) => {
         const axis = this.chain.axes[k].clone().transformDirection(node.matrixWorld);
         const arm = here.place.clone().sub(new Vector3().setFromMatrixPosition(node.matrixWorld));
-        const slides = kind === "prismatic";
+        const prismatic = kind === "prismatic";
         const moves = this.chain.spec.links[link].startsWith(`${path}/`) || this.chain.spec.links[link] === path;
-        const along = slides ? axis : new Vector3().crossVectors(axis, arm);
-        const about = axis.clone().multiplyScalar(slides ? 0 : TURN);
+        const along = prismatic ? axis : new Vector3().crossVectors(axis, arm);
+        const about = axis.clone().multiplyScalar(prismatic ? 0 : ROTATION_WEIGHT);
         state.J[row].push(...[along, about].flatMap((part) => part.multiplyScalar(moves ? 1 : 0).toArray()));
       });
     }
@@ -68,15 +68,15 @@ class Reach {
     return state;
   }
 
-  /** The damped step; joints that it would push beyond their limits are held, and the others solved again. */
+  /** The damped step; joints that it would push beyond their limits are fixed, and the others solved again. */
   step(q, { e, J }, damping) {
-    const pull = J.map((row) => dot(row, e));
+    const descent = J.map((row) => dot(row, e));
     const inside = ({ k, limits: [low, high] }, x) => (q[k] > low || x > 0) && (q[k] < high || x < 0);
-    let rows = this.free.map((_, row) => row).filter((row) => inside(this.free[row], pull[row]));
+    let rows = this.free.map((_, row) => row).filter((row) => inside(this.free[row], descent[row]));
     for (;;) {
       const x = solveLinear(
         rows.map((i) => rows.map((j) => dot(J[i], J[j]) + (i === j ? damping : 0))),
-        rows.map((i) => pull[i]),
+        rows.map((i) => descent[i]),
       );
       const kept = rows.filter((row, n) => inside(this.free[row], x[n]));
       if (kept.length === rows.length) {

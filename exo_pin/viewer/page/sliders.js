@@ -1,4 +1,4 @@
-/* Sliders: one per joint, within its limits. Moving one halts the walk and poses the exoskeleton by hand. */
+/* Sliders: one per joint, within its limits. Moving one halts the walk and poses the robot by hand. */
 
 const TO_DEGREES = 180 / Math.PI;
 
@@ -31,26 +31,26 @@ class Sliders {
     label.className = joint.side || joint.name.split("_")[0];
     range.oninput = () => {
       this.q[k] = Number(range.value);
-      this.tell({ range, value, k });
+      this.showValue({ range, value, k });
       this.onPose(this.q);
     };
     label.append(name, range, value);
     return { label, range, value, k };
   }
 
-  tell({ range, value, k }) {
-    const slides = this.joints[k].kind === "prismatic";
-    value.textContent = slides ? `${fixed(this.q[k] * 1000, 0)} mm` : `${fixed(this.q[k] * TO_DEGREES, 0)}\u00b0`;
+  showValue({ range, value, k }) {
+    const prismatic = this.joints[k].kind === "prismatic";
+    value.textContent = prismatic ? `${fixed(this.q[k] * 1000, 0)} mm` : `${fixed(this.q[k] * TO_DEGREES, 0)}\u00b0`;
     range.setAttribute("aria-valuetext", value.textContent);
   }
 
-  /** Follows the walk while nobody poses by hand. */
+  /** Shows joint values, in the chain's order. */
   show(q) {
     this.q = [...q];
     if (this.holder.hidden) return;
     for (const row of this.rows) {
       row.range.value = String(q[row.k]);
-      this.tell(row);
+      this.showValue(row);
     }
   }
 }

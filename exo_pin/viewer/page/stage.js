@@ -1,4 +1,4 @@
-/* Stage: meshcat's viewer in our pane. The only file that knows how meshcat is driven. */
+/* Stage: meshcat's viewer in the page; the only file that calls it. */
 
 const ROOT = "exo_pin"; // every node of ours hangs under it
 

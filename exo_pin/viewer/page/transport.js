@@ -1,10 +1,10 @@
-/* Transports: how the walk reaches the page. Embedded: it is in the page. Live: over one WebSocket,
-   which also carries the playback's state back, so that a reopened browser resumes. */
+/* Transports: how the walk reaches the page. Embedded: it is in the page. Live: over one WebSocket, which also
+   carries the playback's state back, so that a reopened browser resumes. */
 
 const BUNDLE = 0; // first byte of a binary message: a whole bundle follows
 const POSE = 1; // base (7) and joints, float32: show exactly this, now
 const RETRY = 1000; // [ms] between attempts to reach the server again
-const PATIENCE = 1000; // [ms] a question waits for its answer
+const TIMEOUT = 1000; // [ms] a request waits for its answer
 
 class Embedded {
   constructor(text) {
@@ -18,18 +18,18 @@ class Embedded {
 
   report() {}
 
-  /** Where the joints go for a wish: the page finds out by itself. */
-  ask(wish, tell) {
-    tell(this.player.reach.answer(wish));
+  /** Joint values for the feet's targets, by the page's own inverse kinematics. */
+  solve(request, onAnswer) {
+    onAnswer(this.player.reach.answer(request));
   }
 }
 
 class Live {
   constructor(address) {
     this.address = address;
-    this.said = "";
+    this.reported = ""; // the last state that was sent
     this.count = 0;
-    this.asked = null; // the question that is on its way: {id, tell, sent}
+    this.pending = null; // the request that is on its way: {id, request, onAnswer, timer, sent}
     this.next = null; // of those that wait, only the latest counts
     this.queue = Promise.resolve(); // bundles inflate asynchronously; messages keep their order
   }
@@ -42,12 +42,12 @@ class Live {
   connect(ready) {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => this.player.tell("");
+    socket.onopen = () => this.player.notify("");
     socket.onmessage = ({ data }) => {
       this.queue = this.queue.then(() => this.receive(data, ready));
     };
     socket.onclose = () => {
-      this.player.tell("The program that serves this page has stopped. Playback goes on; waiting for its return.");
+      this.player.notify("The program that serves this page has stopped. Playback goes on; waiting for its return.");
       setTimeout(() => this.connect(ready), RETRY);
     };
     this.socket = socket;
@@ -55,8 +55,8 @@ class Live {
 
   async receive(data, ready) {
     if (typeof data === "string") {
-      const said = JSON.parse(data);
-      return said.type === "reached" ? this.reached(said) : this.player.resume(said);
+      const message = JSON.parse(data);
+      return message.type === "reached" ? this.reached(message) : this.player.resume(message);
     }
     const kind = new Uint8Array(data, 0, 1)[0];
     if (kind === POSE) return this.player.pose(new Float32Array(data.slice(1)));
@@ -64,39 +64,39 @@ class Live {
     return ready();
   }
 
-  /** Asks Python where the joints go for a wish, one question at a time; the page itself if nobody is there. */
-  ask(wish, tell) {
-    this.next = { wish, tell };
-    if (!this.asked) this.askNext();
+  /** Joint values for the feet's targets, by Python, one request at a time; by the page if Python is gone. */
+  solve(request, onAnswer) {
+    this.next = { request, onAnswer };
+    if (!this.pending) this.sendNext();
   }
 
-  askNext() {
-    const { wish, tell } = this.next;
+  sendNext() {
+    const { request, onAnswer } = this.next;
     this.next = null;
     if (!this.open) {
-      tell(this.player.reach.answer(wish));
+      onAnswer(this.player.reach.answer(request));
       return;
     }
-    const timer = setTimeout(() => this.giveUp(), PATIENCE);
-    this.asked = { id: this.count++, wish, tell, timer, sent: performance.now() };
-    this.socket.send(JSON.stringify({ type: "reach", id: this.asked.id, ...wish }));
+    const timer = setTimeout(() => this.giveUp(), TIMEOUT);
+    this.pending = { id: this.count++, request, onAnswer, timer, sent: performance.now() };
+    this.socket.send(JSON.stringify({ type: "reach", id: this.pending.id, ...request }));
   }
 
-  /** Nobody answers: the page finds out by itself. */
+  /** No answer in time: the page solves the latest request itself. */
   giveUp() {
-    const { wish, tell } = this.next || this.asked;
-    this.asked = this.next = null;
-    tell(this.player.reach.answer(wish));
+    const { request, onAnswer } = this.next || this.pending;
+    this.pending = this.next = null;
+    onAnswer(this.player.reach.answer(request));
   }
 
   reached(answer) {
-    if (!this.asked || answer.id !== this.asked.id) return;
-    const { tell, sent, timer } = this.asked;
+    if (!this.pending || answer.id !== this.pending.id) return;
+    const { onAnswer, sent, timer } = this.pending;
     clearTimeout(timer);
-    this.asked = null;
+    this.pending = null;
     this.latency = performance.now() - sent; // [ms]
-    tell(answer);
-    if (this.next) this.askNext();
+    onAnswer(answer);
+    if (this.next) this.sendNext();
   }
 
   get open() {
@@ -105,8 +105,8 @@ class Live {
 
   report(state) {
     const text = JSON.stringify({ type: "state", ...state });
-    if (text === this.said || !this.open) return;
-    this.said = text;
+    if (text === this.reported || !this.open) return;
+    this.reported = text;
     this.socket.send(text);
   }
 }

@@ -1,4 +1,4 @@
-/* Window: the stretch of time that the plots show. It follows the cursor through a long recording. */
+/* Window: the interval of time that the plots show. It follows the cursor through a long recording. */
 
 const LONG = 10; // [s]: a longer recording is at first shown in part
 const AT_FIRST = 5; // [s] of it

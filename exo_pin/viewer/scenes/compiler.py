@@ -1,123 +1,118 @@
-"""The scene compiler: a robot and a gait become a `Scene`, which any transport can show."""
+"""The scene compiler: the exoskeleton's walk or another robot's becomes a `Scene`, which the page shows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from itertools import pairwise
 from math import degrees, radians
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy import FEET
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait, Torques
+from exo_pin.gait import Gait, Torques, side_with_more_strides, strides
 from exo_pin.gait.heading import heading, turned
-from exo_pin.ground.placement import Placement
-from exo_pin.retarget import Retargeted, retarget
+from exo_pin.ground import PlacedWalk
+from exo_pin.retarget import Retargeted
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes import joint_plots, props
 from exo_pin.viewer.scenes.actor import Actor
-from exo_pin.viewer.scenes.humanoid import humanoid
-from exo_pin.viewer.scenes.phase_cycles import cycles
-from exo_pin.viewer.scenes.play import Play
-from exo_pin.viewer.scenes.scene import Facts, Group, Marks, Scene
-from exo_pin.viewer.scenes.walker import walker
-from exo_pin.viewer.scenes.world import ROOT, boxes, world
+from exo_pin.viewer.scenes.exoskeleton import stage_exoskeleton
+from exo_pin.viewer.scenes.humanoid import stage_robot
+from exo_pin.viewer.scenes.scene import ROOT, Facts, Group, Interval, Marks, PhaseCycles, Scene
+from exo_pin.viewer.scenes.staging import SceneOptions, Staging
+from exo_pin.viewer.scenes.world import boxes, world
 
-_ASKEW = radians(15)  # a smaller heading is left as recorded: the cameras forgive it
+_ASKEW = radians(15)
+"""A walk that heads less far from x than this is left as recorded: the cameras still show its sides."""
 
 
-def scene(
+def exoskeleton_scene(
     robot: Robot,
     gait: Gait,
+    options: SceneOptions | None = None,
     *,
     reference: Gait | None = None,
     reference_title: str = "source",
-    compare: Gait | None = None,
-    compare_title: str = "compared",
     torques: Torques | None = None,
-    title: str = "12-DoF exoskeleton gait",
-    support: str = "carried",
     wearer: bool = True,
-    notes: Iterable[str] = (),
-    speed: float = 1.0,
 ) -> Scene:
-    """Everything that the viewer shows of a walk, as one value.
+    """The exoskeleton's walk as a scene.
 
     Args:
-        robot: The exoskeleton, or any robot with two legs (from `load_urdf`), to which the walk is retargeted
-            then; reference, torques and wearer are the exoskeleton's alone, and `retargeted` shows a walk of
-            somebody else's than the default body.
-        gait: The motion to show, e.g. what inverse kinematics recovered.
-        reference: Curves to draw dashed beside it, e.g. the source's.
+        robot: The exoskeleton, any device, with the frames of `FEET`.
+        gait: The walk.
+        options: Title, support, second walk, notes and speed.
+        reference: Curves to draw dashed beside the walk's, e.g. the source's.
         reference_title: What the dashed curves are.
-        compare: A second walk, shown as a ghost, its curves dotted.
-        compare_title: What the ghost is.
         torques: Joint torques on the walk's clock, for a further tab of plots.
-        title: Heading of the page.
-        support: `"carried"`: the balance support moves the pelvis so that the standing foot stays on the
-            ground; `"still"`: it holds the pelvis as in the paper.
         wearer: Whether to draw the person, if the robot was made for one.
-        notes: Sentences to print under the plots.
-        speed: Playback speed at first; 1 is as it happened.
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such support.
         GaitError: The torques belong to another time.
         ExoPinError: The wearer's figure is not installed.
     """
-    if not set(FEET) <= set(robot.frames):
-        walk = retarget(gait, robot)
-        return retargeted(
-            walk,
-            compare=compare,
-            compare_title=compare_title,
-            title=title,
-            support=support,
-            notes=notes,
-            speed=speed,
-        )
+    options = options or SceneOptions(title="12-DoF exoskeleton gait")
     gait, faced = _facing(gait)
-    play = walker(
+    staging = stage_exoskeleton(
         robot,
         gait,
+        options,
         reference=reference,
         reference_title=reference_title,
-        compare=compare,
-        compare_title=compare_title,
         torques=torques,
-        support=support,
         wearer=wearer,
     )
-    return _compiled(replace(play, notes=(*faced, *play.notes)), title, notes, speed)
+    return _compiled(staging, options, faced)
 
 
-def retargeted(
-    walk: Retargeted,
-    *,
-    compare: Gait | None = None,
-    compare_title: str = "compared",
-    title: str = "",
-    support: str = "carried",
-    notes: Iterable[str] = (),
-    speed: float = 1.0,
-) -> Scene:
-    """Everything that the viewer shows of a walk on another robot; arguments as in `scene`.
+def robot_scene(walk: Retargeted, options: SceneOptions | None = None) -> Scene:
+    """A walk on another robot as a scene.
 
-    The robot wears its own meshes, thinned, where its package has them; the curves are its leg joints' own,
-    dashed as the walk's angles ask for them joint by joint.
+    The robot has its own meshes, thinned, where its package has them. The curves are its leg joints' own;
+    the dashed ones copy the person's angles joint by joint.
+
+    Args:
+        walk: The retargeted walk.
+        options: Title (the robot's own if empty), support, second walk, notes and speed.
 
     Raises:
         UnknownNameError: There is no such support.
     """
+    options = options or SceneOptions()
     gait, faced = _facing(walk.gait)
     if faced:
-        walk = replace(walk, gait=gait, base=_turn(walk.gait, gait) @ walk.base)
-    play = humanoid(walk, support, compare, compare_title)
-    notes = (*notes, *faced)
-    return _compiled(play, title or f"{walk.target.title or walk.target.name} gait", notes, speed)
+        walk = replace(walk, gait=gait, base=_rotation(walk.gait, gait) @ walk.base)
+    staging = stage_robot(walk, options)
+    title = options.title or f"{walk.target.title or walk.target.name} gait"
+    return _compiled(staging, replace(options, title=title), faced)
+
+
+def phase_cycles(gait: Gait) -> PhaseCycles:
+    """The gait cycles in which the page counts phase: those of the foot that has more, left if equal.
+
+    A periodic walk is one cycle, seen around its end; without heel strikes it begins at its first sample.
+    Spans of a recording that are no strides (a pause, a turn) are no cycles.
+    """
+    side = side_with_more_strides(gait)
+    found = _cycles_of(gait, side)
+    if gait.periodic and not found:
+        return PhaseCycles("", ((0.0, gait.duration),))
+    return PhaseCycles(side if found else "", found)
+
+
+def _cycles_of(gait: Gait, side: Side) -> tuple[Interval, ...]:
+    """From, to [s] after the first sample."""
+    start = float(gait.time[0])
+    if not gait.periodic:
+        spans = strides(gait, side)
+        return tuple((span.start - start, span.end - start) for span in spans if not span.why)
+    strikes = [e.time - start for e in gait.events if (e.side, e.kind) == (side, "heel_strike")]
+    return tuple(pairwise([t + k * gait.duration for k in (-1, 0, 1) for t in strikes]))
 
 
 def _facing(gait: Gait) -> tuple[Gait, list[str]]:
@@ -129,7 +124,7 @@ def _facing(gait: Gait) -> tuple[Gait, list[str]]:
     return turned(gait, -angle), [how]
 
 
-def _turn(gait: Gait, faced: Gait) -> Array:
+def _rotation(gait: Gait, faced: Gait) -> Array:
     """The rotation (4, 4) that a walk was turned by."""
     T = np.eye(4)
     if gait.base is not None and faced.base is not None:
@@ -137,36 +132,36 @@ def _turn(gait: Gait, faced: Gait) -> Array:
     return T
 
 
-def _compiled(play: Play, title: str, notes: Iterable[str], speed: float) -> Scene:
-    """The scene of a play: the world around it, and all that the page is told."""
-    gait, shown, actors = play.gait, play.shown, play.actors
-    drawings, marks = world(gait, shown, play.mounts)
+def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> Scene:
+    """The scene of a staging: the world around it, and the page's header."""
+    gait, walk, actors = staging.gait, staging.walk, staging.actors
+    drawings, marks = world(gait, walk, staging.mounts)
     facts = Facts(
-        title=title,
+        title=options.title,
         subtitle=_subtitle(gait),
-        notes=tuple(dict.fromkeys((*notes, *_ground(shown), *play.notes))),
+        notes=tuple(dict.fromkeys((*options.notes, *_support_notes(walk), *faced, *staging.notes))),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
-        cycles=cycles(gait),
-        stance=shown.stance,
-        contact="contact (estimated)" if shown.estimated else "foot contact",
-        reference=play.reference,
-        compared=play.compared,
+        cycles=phase_cycles(gait),
+        stance=walk.stance,
+        contact="contact (estimated)" if walk.estimated else "foot contact",
+        reference=staging.reference,
+        compared=staging.compared,
         chains=tuple(actor.chain for actor in actors),
-        grips=play.grips,
-        plots=joint_plots.groups(play.tabs),
+        handles=staging.handles,
+        plots=joint_plots.groups(staging.tabs),
         groups=_groups(actors, marks),
         marks=marks,
-        boxes=boxes(shown, play.top),
-        follow=shown.support.overground,
-        speed=speed,
+        boxes=boxes(walk, staging.top),
+        follow=walk.support.overground,
+        speed=options.speed,
         twins=tuple(pair for actor in actors for pair in actor.twins),
         shadowless=tuple(f"{ROOT}/{name}" for name in ("traces", "marks", "floor", "ghost")),
         lights=props.PLAIN_LIGHTS,
     )
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
-    return Scene(facts, commands, _arrays(shown, actors, joint_plots.arrays(play.tabs)), play.robot)
+    return Scene(facts, commands, _arrays(walk, actors, joint_plots.arrays(staging.tabs)), staging.robot)
 
 
 def _subtitle(gait: Gait) -> str:
@@ -174,9 +169,9 @@ def _subtitle(gait: Gait) -> str:
     return ", ".join(filter(None, (gait.source, f"{gait.duration:.2f} s {kind}")))
 
 
-def _ground(shown: Placement) -> list[str]:
-    notes = [shown.support.note]
-    if shown.estimated:
+def _support_notes(walk: PlacedWalk) -> list[str]:
+    notes = [walk.support.note]
+    if walk.estimated:
         notes.append("The gait has no contact events: contact is estimated from the lowest sole corners.")
     return notes
 
@@ -193,9 +188,9 @@ def _groups(actors: Iterable[Actor], marks: Marks) -> tuple[Group, ...]:
 
 
 def _arrays(
-    shown: Placement, actors: Iterable[Actor], lines: dict[str, Array]
+    walk: PlacedWalk, actors: Iterable[Actor], curves: Mapping[str, Array]
 ) -> dict[str, NDArray[np.floating[Any]]]:
-    arrays = {"time": shown.time, "com": shown.com, **lines}
+    arrays = {"time": walk.time, "com": walk.com, **curves}
     for actor in actors:
         arrays |= actor.arrays
     return {name: _narrow(name, rows) for name, rows in arrays.items()}

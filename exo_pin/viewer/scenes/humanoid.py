@@ -1,109 +1,114 @@
-"""Any robot with two legs on the stage: its own meshes, its feet on the ground, its leg joints' curves."""
+"""Another robot with two legs: its meshes, its feet on the ground, its leg joints' curves."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
 from difflib import SequenceMatcher
+from math import degrees
 
 import numpy as np
 
-from exo_pin.gait import Gait
-from exo_pin.ground.placement import Placement, moved, stood
+from exo_pin.arrays import Array
+from exo_pin.ground import PlacedWalk, aligned, alignment_note, place, transformed
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Biped, Retargeted, retarget
 from exo_pin.viewer.drawing_commands import Material
-from exo_pin.viewer.meshes.urdf_meshes import Meshes
+from exo_pin.viewer.meshes.urdf_meshes import Meshes, ThinnedFiles
 from exo_pin.viewer.scenes import joint_plots
-from exo_pin.viewer.scenes.actor import GHOST, Actor, aligned, in_step, samples
-from exo_pin.viewer.scenes.appearance import bare, dressed, highest, plate
+from exo_pin.viewer.scenes.actor import GHOST, Actor, Mount, chain_samples
+from exo_pin.viewer.scenes.appearance import (
+    foot_plate,
+    highest_point,
+    needs_plate,
+    plate_path,
+    robot_linkage,
+)
 from exo_pin.viewer.scenes.link_nodes import Linkage
-from exo_pin.viewer.scenes.play import Play
-from exo_pin.viewer.scenes.scene import Chain, Grip, Group
+from exo_pin.viewer.scenes.scene import ROOT, Chain, Group, Handle
 from exo_pin.viewer.scenes.soles import Sole, soles
-from exo_pin.viewer.scenes.world import ROOT, Mount
+from exo_pin.viewer.scenes.staging import SceneOptions, Staging
 
-HEADROOM = 0.06
+_HEADROOM = 0.06
 """The picture reaches so far above the robot's highest point [m]."""
 
-DIP = 0.005
-"""Tips of feet that are less deep in the ground than this need no words [m]."""
+_SHALLOW = 0.005
+"""Tips of feet that are less deep in the ground than this are not mentioned [m]."""
 
 
-def humanoid(
-    result: Retargeted, support: str = "carried", compare: Gait | None = None, compare_title: str = "compared"
-) -> Play:
-    """A retargeted walk as it is to be shown.
+def stage_robot(result: Retargeted, options: SceneOptions) -> Staging:
+    """A retargeted walk with the robot's figure and curves.
 
     Args:
-        result: The walk on the robot.
-        support: How the root is carried, as in `viewer.scene`.
-        compare: A second walk, shown as a ghost.
-        compare_title: What the ghost is.
+        result: The walk on the robot, heading along x.
+        options: What the scene shows besides.
 
     Raises:
         UnknownNameError: There is no such support.
     """
-    biped = result.biped
+    biped, files = result.biped, ThinnedFiles()
     color = biped.target.paint
     paint = None if color is None else Material(color, 0.6, 0.0)
-    tree, meshes = dressed(biped, f"{ROOT}/exo", paint)
+    tree, meshes = robot_linkage(biped, f"{ROOT}/exo", paint, files)
     feet = soles(biped, tree.shapes)
-    shown = _motion(result, feet, support)
-    actors = [_actor(result, shown, tree, feet)]
+    walk = _placed(result, feet, options)
+    actors = [_actor(result, walk, tree, feet)]
     tabs, notes = _tabs(result), _notes(result, meshes, tree)
-    if compare is not None:
-        second = retarget(aligned(result.gait, compare), biped, result.body)
-        actors.append(_ghost(second, feet, support, compare_title))
-        tabs = joint_plots.beside(tabs, _tabs(second))
-        notes.append(in_step(result.gait, compare))
-    return Play(
+    if options.compare is not None:
+        second = retarget(aligned(result.gait, options.compare), biped, result.body)
+        ghost, _ = robot_linkage(biped, f"{ROOT}/ghost", GHOST, files)
+        actors.append(_ghost(second, _placed(second, feet, options), ghost, options.compare_title))
+        tabs = joint_plots.with_second_walk(tabs, _tabs(second))
+        notes.append(alignment_note(result.gait, options.compare))
+    return Staging(
         robot=biped.robot,
         gait=result.gait,
-        shown=shown,
+        walk=walk,
         actors=tuple(actors),
         mounts=tuple(_mount(tree, sole) for sole in feet),
-        grips=tuple(Grip(leg.foot, leg.side) for leg in biped.legs if leg.reaches_any_pose),
+        handles=tuple(Handle(leg.foot, leg.side) for leg in biped.legs if leg.reaches_any_pose),
         tabs=tabs,
         reference="joint by joint",
-        compared="" if compare is None else compare_title,
-        top=highest(biped, tree) + HEADROOM,
-        notes=(*notes, *_dips(shown, feet)),
+        compared="" if options.compare is None else options.compare_title,
+        top=highest_point(biped, tree) + _HEADROOM,
+        notes=(*notes, *_buried_tips(walk, feet)),
     )
 
 
-def _motion(result: Retargeted, feet: tuple[Sole, Sole], support: str) -> Placement:
+def _placed(result: Retargeted, feet: tuple[Sole, Sole], options: SceneOptions) -> PlacedWalk:
     biped = result.biped
     T = poses(biped.robot, result.q, [sole.link for sole in feet]) @ np.array([sole.T for sole in feet])
     corners = np.tile(np.eye(4), (len(T), 2, 4, 1, 1))
     for k, sole in enumerate(feet):
         corners[:, k, :, :3, 3] = sole.corners @ np.swapaxes(T[:, k, :3, :3], -1, -2) + T[:, k, None, :3, 3]
-    seen = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
+    T_root = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
     com = center_of_mass(biped.robot, result.q).position
-    return stood(result.gait, biped.robot.angles(result.q), result.base, seen, com, support, "The pelvis")
+    q = biped.robot.angles(result.q)
+    return place(result.gait, q, result.base, T_root, com, options.support, "The pelvis")
 
 
-def _actor(result: Retargeted, shown: Placement, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
+def _actor(result: Retargeted, walk: PlacedWalk, tree: Linkage, feet: tuple[Sole, Sole]) -> Actor:
     """The robot; only its legs' joints have sliders."""
     sides = {joint: leg.side for leg in result.biped.legs for joint in leg.joints}
-    turns = tuple(
-        replace(turn, side=sides[turn.name]) if turn.name in sides else replace(turn, limits=None)
-        for turn in tree.turns
+    joints = tuple(
+        replace(joint, side=sides[joint.name]) if joint.name in sides else replace(joint, limits=None)
+        for joint in tree.joints
     )
-    chain = Chain("exo", tree.root, tree.links, turns, "q", "base")
-    plates = [sole for sole in feet if sole.link not in tree.shapes and bare(result.biped, sole, tree)]
-    commands = (*tree.commands, *(command for sole in plates for command in plate(tree, sole)))
-    looks = (*tree.looks, *(f"{tree.links[sole.link]}/plate" for sole in plates))
+    chain = Chain("exo", tree.root, tree.links, joints, "q", "base")
+    plated = [sole for sole in feet if needs_plate(result.biped, tree, sole)]
+    commands = (*tree.commands, *(command for sole in plated for command in foot_plate(tree, sole)))
+    visuals = (*tree.visuals, *(plate_path(tree, sole) for sole in plated))
     title = result.target.title or result.target.name
-    return Actor(commands, chain, samples(result.robot, shown, tree, ""), Group(title, looks))
+    return Actor(commands, chain, _samples(result, walk, chain), Group(title, visuals))
 
 
-def _ghost(result: Retargeted, feet: tuple[Sole, Sole], support: str, title: str) -> Actor:
-    shown = _motion(result, feet, support)
-    tree, _ = dressed(result.biped, f"{ROOT}/ghost", GHOST)
-    chain = Chain("ghost", tree.root, tree.links, tree.turns, "ghost_q", "ghost_base")
-    arrays = samples(result.robot, shown, tree, "ghost_")
-    return Actor(tree.commands, chain, arrays, Group(f"Ghost: {title}", tree.looks))
+def _ghost(result: Retargeted, walk: PlacedWalk, tree: Linkage, title: str) -> Actor:
+    chain = Chain("ghost", tree.root, tree.links, tree.joints, "ghost_q", "ghost_base")
+    return Actor(tree.commands, chain, _samples(result, walk, chain), Group(f"Ghost: {title}", tree.visuals))
+
+
+def _samples(result: Retargeted, walk: PlacedWalk, chain: Chain) -> dict[str, Array]:
+    return chain_samples(chain, dict(zip(result.robot.joints, walk.q.T, strict=True)), walk.base)
 
 
 def _mount(tree: Linkage, sole: Sole) -> Mount:
@@ -143,16 +148,13 @@ def _shared(left: str, right: str) -> str:
 
 
 def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
-    target, biped = result.target, result.biped
-    place = 1e3 * result.errors.largest_position
-    turn = np.degrees(result.errors.largest_rotation)
+    target, biped, errors = result.target, result.biped, result.errors
     legs = f"{biped.joints_per_leg} joints per leg, hip {biped.hip_order}"
-    lean = (
-        f"the trunk is upright, the hips take over {np.degrees(result.lean):.1f} degrees of the pelvis's lean"
-    )
+    lean = f"the trunk is upright, the hips take over {degrees(result.lean):.1f} degrees of the pelvis's lean"
     notes = [
         f"{target.title or target.name}: {legs}; the feet's paths are {np.mean(result.scale):.2f} times the "
-        f"person's, missed by {place:.2f} mm and {turn:.1f} degrees at most; {lean}. "
+        f"person's, missed by {1e3 * errors.largest_position:.2f} mm and "
+        f"{degrees(errors.largest_rotation):.1f} degrees at most; {lean}. "
         "Dashed: the person's angles joint by joint.",
         target.remarks,
         f"Its looks: {target.licence}, thinned." if target.licence and meshes.triangles else "",
@@ -163,13 +165,13 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
     return [note for note in notes if note]
 
 
-def _dips(shown: Placement, feet: tuple[Sole, Sole]) -> list[str]:
+def _buried_tips(walk: PlacedWalk, feet: tuple[Sole, Sole]) -> list[str]:
     """How deep the tips of rigid feet get below the ground, where a person's toes would bend."""
     low = 0.0
     for k, sole in enumerate(feet):
         tip = np.array([sole.tip, *sole.middle[1:], 0.0])
-        low = min(low, float(moved(shown.feet[:, k], tip)[:, 2].min()))
-    if low > -DIP:
+        low = min(low, float(transformed(walk.feet[:, k], tip)[:, 2].min()))
+    if low > -_SHALLOW:
         return []
     return [
         "The rigid feet have no toes: where a person's would bend, their tips are up to "

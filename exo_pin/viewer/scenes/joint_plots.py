@@ -14,16 +14,18 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques, time_series
 from exo_pin.robot import Robot
-from exo_pin.viewer.scenes.scene import Plot, PlotGroup, Series
+from exo_pin.viewer.scenes.scene import Plot, PlotGroup, PlotSide, Series
 
-FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
+_FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
 """The plots at the top: the sagittal plane; the others follow in the robot's order."""
 
-NO_LIMIT = 1e6
+_NO_LIMIT = 1e6
 """Stands for an infinite limit, which JSON does not know."""
 
 _SIDE = re.compile(r"(?<![a-z])(left|right|l|r)(?![a-z])|^([LR])(?=[A-Z])")
 """`left_knee`, `leg_left_4_joint`, `l_knee`, `LKneePitch`."""
+
+_SIDES: dict[str, PlotSide] = {"l": "left", "r": "right"}
 
 
 class Unit(NamedTuple):
@@ -35,9 +37,9 @@ class Unit(NamedTuple):
     least: float
 
 
-DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
-DEGREES_PER_SECOND = Unit("°/s", 180 / math.pi, 0, 60.0)
-NEWTON_METRES = Unit(" N m", 1.0, 0, 20.0)
+_DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
+_DEGREES_PER_SECOND = Unit("°/s", 180 / math.pi, 0, 60.0)
+_NEWTON_METRES = Unit(" N m", 1.0, 0, 20.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +97,7 @@ def of_gait(
     """Angles, velocities and (when given) torques of a walk, in the clinical order of `JOINTS`.
 
     Args:
-        robot: Whose limits are drawn. Joints that it locks stand still and have none.
+        robot: Its limits are drawn. Joints that it locks stand still and have none.
         gait: The walk that is shown.
         reference: The walk of the dashed curves.
         torques: On the walk's own clock.
@@ -105,53 +107,53 @@ def of_gait(
     """
     if not set(JOINTS) <= set(robot.joints):
         gait = robot.to_gait(robot.from_gait(gait), gait)
-    limits = robot.upper, -robot.lower, robot.velocity, robot.effort
-    upper, lower, speed, effort = (_clinical(robot, limit) for limit in limits)
+    lower, upper = _clinical(robot, robot.lower, -np.inf), _clinical(robot, robot.upper, np.inf)
+    speed, effort = _clinical(robot, robot.velocity, np.inf), _clinical(robot, robot.effort, np.inf)
     angles, speeds, time = None, None, None
     if reference is not None:
         angles, speeds, time = reference.q, reference.dq, reference.time - reference.time[0]
     tabs = (
-        Tab("Angles", "angles", JOINTS, gait.q, -lower, upper, DEGREES, angles, time),
-        Tab("Velocities", "speeds", JOINTS, gait.dq, -speed, speed, DEGREES_PER_SECOND, speeds, time),
+        Tab("Angles", "angles", JOINTS, gait.q, lower, upper, _DEGREES, angles, time),
+        Tab("Velocities", "speeds", JOINTS, gait.dq, -speed, speed, _DEGREES_PER_SECOND, speeds, time),
     )
     if torques is None:
         return tabs
     known = [JOINTS.index(joint) for joint in torques.joints]
-    tau, most = torques.at(gait.time)[:, known], effort[known]
-    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -most, most, NEWTON_METRES))
+    tau, limit = torques.at(gait.time)[:, known], effort[known]
+    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -limit, limit, _NEWTON_METRES))
 
 
 def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None = None) -> tuple[Tab, ...]:
     """Angles and velocities of any robot, under its joints' own names.
 
     Args:
-        robot: Whose joints and limits are drawn.
+        robot: Its joints and limits are drawn.
         time: `(n,)` strictly increasing [s].
         q: `(n, nq)` configurations.
-        joints: Which of its joints; all that turn if left out (slides are never drawn).
+        joints: Which of its joints; all revolute ones if left out (prismatic ones are never drawn).
 
     Raises:
         UnknownNameError: The robot has no such joint.
     """
-    names = [name for name in joints or robot.joints if _turns(robot, name)]
+    names = [name for name in joints or robot.joints if _is_revolute(robot, name)]
     own = [robot.column(name) + len(robot.joints) - robot.nq for name in names]
     angles = robot.angles(q)[:, own]
     speeds, speed = time_series.derivative(time, angles, 1, None), robot.velocity[own]
     lower, upper = robot.lower[own], robot.upper[own]
     return (
-        Tab("Angles", "angles", tuple(names), angles, lower, upper, DEGREES),
-        Tab("Velocities", "speeds", tuple(names), speeds, -speed, speed, DEGREES_PER_SECOND),
+        Tab("Angles", "angles", tuple(names), angles, lower, upper, _DEGREES),
+        Tab("Velocities", "speeds", tuple(names), speeds, -speed, speed, _DEGREES_PER_SECOND),
     )
 
 
-def beside(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, ...]:
+def with_second_walk(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, ...]:
     """Tabs with the curves of a second walk dotted in those that both have."""
     values = {tab.name: tab.values for tab in second}
     return tuple(replace(tab, compared=values.get(tab.name)) for tab in tabs)
 
 
 def groups(tabs: Iterable[Tab]) -> tuple[PlotGroup, ...]:
-    """What the page is told of the tabs: one plot for left and right of a joint."""
+    """The tabs as the page reads them: one plot for left and right of a joint."""
     return tuple(PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab)) for tab in tabs)
 
 
@@ -164,40 +166,42 @@ def notes(torques: Torques | None) -> list[str]:
     """Where the torques come from and what their sign means."""
     if torques is None:
         return []
-    whose = f" ({torques.source})" if torques.source else ""
+    source = f" ({torques.source})" if torques.source else ""
     return [
-        f"Torques{whose}: positive drives the joint the way its name says; the limits are the actuators'."
+        f"Torques{source}: positive drives the joint the way its name says; the limits are the actuators'."
     ]
 
 
-def pairs(joints: Sequence[str]) -> dict[str, dict[str, int]]:
+def pairs(joints: Sequence[str]) -> dict[str, dict[PlotSide, int]]:
     """Movement -> side -> column: joints whose names differ in the side alone belong together.
 
     A joint of neither side has the side `"middle"`. The sagittal plane comes first, then the given order.
     """
-    found: dict[str, dict[str, int]] = {}
+    found: dict[str, dict[PlotSide, int]] = {}
     for column, joint in enumerate(joints):
         match = _SIDE.search(joint)
-        side = "middle" if match is None else {"l": "left", "r": "right"}[match[0][0].lower()]
+        side = "middle" if match is None else _SIDES[match[0][0].lower()]
         movement = joint if match is None else (joint[: match.start()] + joint[match.end() :]).strip("_")
         found.setdefault(movement.replace("__", "_"), {})[side] = column
-    return {name: found[name] for name in (*FIRST, *found) if name in found}
+    return {name: found[name] for name in (*_FIRST, *found) if name in found}
 
 
-def _clinical(robot: Robot, limit: Array) -> Array:
-    """Limits `(J,)` of the robot's joints in the order of `JOINTS`; infinite where it has no such joint."""
-    own = dict(zip(robot.joints, limit, strict=True))
-    return np.array([own.get(joint, np.inf) for joint in JOINTS])
+def _clinical(robot: Robot, limits: Array, missing: float) -> Array:
+    """`(12,)` limits in the order of `JOINTS`; `missing` where the robot has no such joint."""
+    own = dict(zip(robot.joints, limits, strict=True))
+    return np.array([own.get(joint, missing) for joint in JOINTS])
 
 
-def _turns(robot: Robot, joint: str) -> bool:
+def _is_revolute(robot: Robot, joint: str) -> bool:
+    """Whether a joint's motion subspace (linear part first) has an angular part."""
     robot.column(joint)  # refuses an unknown one
-    return "JointModelP" not in robot.model.joints[robot.model.getJointId(joint)].shortname()
+    subspace = robot.model.joints[robot.model.getJointId(joint)].createData().S
+    return bool(np.any(subspace[3:]))
 
 
 def _plots(tab: Tab) -> tuple[Plot, ...]:
     plots = []
-    lower, upper = (np.clip(limit, -NO_LIMIT, NO_LIMIT).tolist() for limit in (tab.lower, tab.upper))
+    lower, upper = (np.clip(limit, -_NO_LIMIT, _NO_LIMIT).tolist() for limit in (tab.lower, tab.upper))
     for movement, sides in pairs(tab.joints).items():
         title = movement.removesuffix("_joint").replace("_", " ")
         series = tuple(Series(side, k, lower[k], upper[k]) for side, k in sides.items())

@@ -5,7 +5,6 @@ BSD-2-Clause, Gepetto team (LAAS-CNRS). In our axes: x forward, y left, z up.
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -16,30 +15,35 @@ from exo_pin.examples import located
 from exo_pin.viewer.meshes import mesh_files
 from exo_pin.viewer.meshes.solids import Solid
 
-Triple = tuple[float, float, float]
+_Triple = tuple[float, float, float]
 
-GRAIN = 0.045
+_CELL = 0.045
 """Meshes are thinned to cells of this share of their largest side."""
 
 _HOME = "human_description/robots/human.urdf"
 
 
-def part(name: str, scale: Triple, offset: Triple = (0.0, 0.0, 0.0)) -> Solid:
-    """A mesh of the figure, scaled along x, y, z and moved [m].
+def part(name: str, scale: _Triple, offset: _Triple = (0.0, 0.0, 0.0)) -> Solid:
+    """A mesh of the figure, scaled and moved.
+
+    Args:
+        name: Of its file, without `_mesh.STL`.
+        scale: Along x, y, z; the file counts in its own unit.
+        offset: Along x, y, z [m].
 
     Raises:
         ExoPinError: example-robot-data is not installed.
     """
     vertices, faces = _thinned(name)
-    return smooth(vertices * np.array(scale) + np.array(offset), faces)
+    return _smooth(vertices * np.array(scale) + np.array(offset), faces)
 
 
-def scaled(solid: Solid, scale: Triple) -> Solid:
+def scaled(solid: Solid, scale: _Triple) -> Solid:
     """A solid stretched along x, y, z."""
-    return smooth(solid.vertices * np.array(scale), solid.faces)
+    return _smooth(solid.vertices * np.array(scale), solid.faces)
 
 
-def smooth(vertices: Array, faces: Index) -> Solid:
+def _smooth(vertices: Array, faces: Index) -> Solid:
     """A solid whose normals are the mean of the faces around each vertex."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     area = np.cross(b - a, c - a)
@@ -48,12 +52,11 @@ def smooth(vertices: Array, faces: Index) -> Solid:
     return Solid(vertices, faces, normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
 
 
-@cache
 def _thinned(name: str) -> tuple[Array, Index]:
     """A mesh with its vertices clustered: smooth to look at, a tenth of the size."""
     (mesh,) = mesh_files.read(_folder() / f"{name}_mesh.STL")
     corners = mesh.vertices[mesh.faces].reshape(-1, 3)[:, [0, 2, 1]] * (1, -1, 1)  # the figure has y up
-    cell = GRAIN * np.ptp(corners, axis=0).max()
+    cell = _CELL * np.ptp(corners, axis=0).max()
     keys = np.floor((corners - corners.min(axis=0)) / cell).astype(int)
     flat = np.ravel_multi_index(tuple(keys.T), tuple(keys.max(axis=0) + 1))  # sorts faster than rows do
     _, index, count = np.unique(flat, return_inverse=True, return_counts=True)

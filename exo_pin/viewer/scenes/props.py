@@ -1,4 +1,4 @@
-"""What stands around the exoskeleton: light, floor, treadmill, the feet's paths, the centre of mass."""
+"""Props around the figures: light, floor, treadmill, the feet's paths, the centre of mass."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Index
 from exo_pin.viewer.drawing_commands import (
     Command,
@@ -19,12 +20,14 @@ from exo_pin.viewer.drawing_commands import (
     place,
     setting,
     sphere,
-    translation,
 )
+from exo_pin.viewer.meshes.solids import translation
 from exo_pin.viewer.scenes.scene import Belt
 
-LEFT, RIGHT = (0.82, 0.24, 0.29), (0.16, 0.46, 0.78)
-SIDE_COLORS = {"left": LEFT, "right": RIGHT}
+SIDE_COLORS: dict[Side, tuple[float, float, float]] = {
+    "left": (0.82, 0.24, 0.29),
+    "right": (0.16, 0.46, 0.78),
+}
 """Red left, blue right, in the scene and in the plots alike."""
 
 PLAIN_LIGHTS = {
@@ -89,7 +92,13 @@ def studio() -> list[Command]:
 
 
 def floor(path: str, height: float, reach: float) -> list[Command]:
-    """A matt floor with a thin half-metre grid, its surface at a height [m], `reach` metres each way."""
+    """A matt floor with a thin half-metre grid.
+
+    Args:
+        path: Node.
+        height: Of its surface [m].
+        reach: How far it must extend each way [m]; it is larger where the fog demands it.
+    """
     half = 2 * math.ceil(max(reach, 9) / 2)  # beyond the fog: the floor has no visible edge
     matt = Material((0.667, 0.702, 0.737, 1.0), 1.0, 0.0, glow=0.34, more=(("envMapIntensity", 0.5),))
     return [
@@ -108,38 +117,38 @@ def _grid(half: int) -> Array:
     return np.concatenate([pieces, pieces[..., [1, 0, 2]]]).reshape(-1, 3)
 
 
-def treadmill(path: str, it: Treadmill) -> list[Command]:
+def treadmill(path: str, mill: Treadmill) -> list[Command]:
     """Belt, rails, hood and slats; the slats hang in one node that the page moves."""
     dark = Material((0.10, 0.11, 0.12, 1.0), 0.8, 0.05)
     metal = Material((0.30, 0.33, 0.37, 1.0), 0.45, 0.25)
     signal = Material((0.95, 0.55, 0.12, 1.0), 0.5, 0.0)
-    long = it.length + 0.2
+    long = mill.length + 0.2
     parts = [
-        ("belt", (it.length, 0.62, 0.03), (0.0, 0.0, -0.0151), dark),
-        ("hood", (0.34, 0.85, 0.15), (it.length / 2 + 0.17, 0.0, -0.042), metal),
+        ("belt", (mill.length, 0.62, 0.03), (0.0, 0.0, -0.0151), dark),
+        ("hood", (0.34, 0.85, 0.15), (mill.length / 2 + 0.17, 0.0, -0.042), metal),
     ]
     for name, s in (("left", 1), ("right", -1)):
         parts.append((f"rail_{name}", (long, 0.11, DECK), (0.0, 0.365 * s, -DECK / 2 + 0.002), metal))
         parts.append((f"strip_{name}", (long, 0.008, 0.022), (0.0, 0.4212 * s, -0.05), signal))
-    commands = [place(path, translation(it.center, 0, it.height))]
-    for name, size, at, look in parts:
-        commands += [draw(f"{path}/{name}", box(size), look), place(f"{path}/{name}", translation(*at))]
-    return commands + _slats(f"{path}/slats", it)
+    commands = [place(path, translation(mill.center, 0, mill.height))]
+    for name, size, at, material in parts:
+        commands += [draw(f"{path}/{name}", box(size), material), place(f"{path}/{name}", translation(*at))]
+    return commands + _slats(f"{path}/slats", mill)
 
 
-def belt(path: str, it: Treadmill) -> Belt:
+def belt(path: str, mill: Treadmill) -> Belt:
     """What the page needs to move the slats of the treadmill at a path."""
-    return Belt(f"{path}/slats", it.pitch, it.speed)
+    return Belt(f"{path}/slats", mill.pitch, mill.speed)
 
 
-def _slats(path: str, it: Treadmill) -> list[Command]:
-    look = Material((0.32, 0.34, 0.36, 1.0), 0.8, 0.05)
-    first = -it.length / 2 + it.pitch  # they move back by up to one pitch and stay on the belt
-    count = int(it.length / it.pitch + 1e-9)
+def _slats(path: str, mill: Treadmill) -> list[Command]:
+    material = Material((0.32, 0.34, 0.36, 1.0), 0.8, 0.05)
+    first = -mill.length / 2 + mill.pitch  # they move back by up to one pitch and stay on the belt
+    count = int(mill.length / mill.pitch + 1e-9)
     commands = []
     for k in range(count):
-        commands.append(draw(f"{path}/{k}", box((0.008, 0.60, 0.002)), look))
-        commands.append(place(f"{path}/{k}", translation(first + k * it.pitch, 0, 0.0005)))
+        commands.append(draw(f"{path}/{k}", box((0.008, 0.60, 0.002)), material))
+        commands.append(place(f"{path}/{k}", translation(first + k * mill.pitch, 0, 0.0005)))
     return commands
 
 
@@ -157,7 +166,16 @@ def trace(path: str, points: Array, color: tuple[float, float, float], *, closed
 
 
 def tube(points: Array, radius: float, *, closed: bool) -> tuple[Array, Index, Array]:
-    """Triangles of a tube around a polyline: vertices, faces, normals."""
+    """Triangles of a tube around a polyline.
+
+    Args:
+        points: `(n, 3)` [m].
+        radius: Of the tube [m].
+        closed: Whether the last point leads to the first.
+
+    Returns:
+        Vertices `(8 n, 3)`, faces, normals `(8 n, 3)`.
+    """
     before = np.roll(points, 1, axis=0) if closed else np.vstack([points[:1], points[:-1]])
     after = np.roll(points, -1, axis=0) if closed else np.vstack([points[1:], points[-1:]])
     along = _unit(after - before)

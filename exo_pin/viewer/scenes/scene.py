@@ -1,23 +1,49 @@
-"""What the page is told: a `Scene` and its parts, plain values without behaviour."""
+"""`Scene`: everything that the page needs to show a walk, as plain values."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy.names import Base, Side
+from exo_pin.anatomy.names import Side
 from exo_pin.viewer.drawing_commands import Command
-from exo_pin.viewer.scenes.link_nodes import Turn
 
 if TYPE_CHECKING:
     from exo_pin.robot import Robot
 
+ROOT = "/exo_pin"
+"""Path of the node below which all others of a scene hang."""
+
 Interval = tuple[float, float]
 """From, to [s] on the page's clock, which starts at 0."""
+
+PlotSide = Literal["left", "right", "middle"]
+"""Side of a joint; `"middle"`: a joint of the trunk."""
+
+
+@dataclass(frozen=True)
+class JointNode:
+    """A moving joint in the page.
+
+    Attributes:
+        name: The joint's name.
+        path: The node that rotates or slides.
+        axis: Unit axis in the joint's frame.
+        kind: `"revolute"` or `"prismatic"`.
+        limits: Lower and upper limit [rad, m] for a slider in the page, or None: no slider.
+        side: Side for the slider's colour; empty: what the joint's name begins with.
+    """
+
+    name: str
+    path: str
+    axis: tuple[float, float, float]
+    kind: Literal["revolute", "prismatic"]
+    limits: tuple[float, float] | None = None
+    side: Side | Literal[""] = ""
 
 
 @dataclass(frozen=True)
@@ -36,9 +62,9 @@ class Chain:
     name: str
     root: str
     links: Mapping[str, str]
-    joints: tuple[Turn, ...]
+    joints: tuple[JointNode, ...]
     q: str
-    base: Base
+    base: str
 
 
 @dataclass(frozen=True)
@@ -49,7 +75,7 @@ class PhaseCycles:
     periodic walk reach over its ends.
     """
 
-    side: Side
+    side: Side | Literal[""]
     spans: tuple[Interval, ...]
 
 
@@ -57,7 +83,7 @@ class PhaseCycles:
 class Series:
     """One curve of a plot: a side, its column, its limits in the array's own unit."""
 
-    side: Side
+    side: PlotSide
     column: int
     lower: float
     upper: float
@@ -99,8 +125,8 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Grip:
-    """A foot that can be taken by the hand: its link (or frame) in the first chain, and its side."""
+class Handle:
+    """A foot that can be dragged: its link (or frame) in the first chain, and its side."""
 
     link: str
     side: Side
@@ -122,7 +148,7 @@ class Marks:
     com: str
     ground: str
     height: float
-    contact: Mapping[str, str]
+    contact: Mapping[Side, str]
     belt: Belt | None
 
 
@@ -136,12 +162,12 @@ class Box:
 
 @dataclass(frozen=True)
 class Facts:
-    """All that the page knows besides drawings and samples.
+    """The header of a scene: all that the page needs besides drawings and samples.
 
     Attributes:
         title: Heading.
         subtitle: Where the walk comes from.
-        notes: What the viewer must know about the picture, in sentences.
+        notes: What people must know about the picture, in sentences.
         duration: Length of the walk [s].
         start: The gait's own time at the page's 0 [s].
         periodic: Whether the last frame leads back to the first.
@@ -151,7 +177,7 @@ class Facts:
         reference: What the dashed curves are, or empty.
         compared: What the dotted curves are, or empty.
         chains: The figures.
-        grips: The feet of the first figure that can be dragged.
+        handles: The feet of the first figure that can be dragged.
         plots: The tabs of plots.
         groups: What can be shown or hidden.
         marks: What moves besides the figures.
@@ -170,12 +196,12 @@ class Facts:
     start: float
     periodic: bool
     cycles: PhaseCycles
-    stance: Mapping[str, tuple[Interval, ...]]
+    stance: Mapping[Side, tuple[Interval, ...]]
     contact: str
     reference: str
     compared: str
     chains: tuple[Chain, ...]
-    grips: tuple[Grip, ...]
+    handles: tuple[Handle, ...]
     plots: tuple[PlotGroup, ...]
     groups: tuple[Group, ...]
     marks: Marks
@@ -192,10 +218,10 @@ class Scene:
     """A walk ready to be shown: no transport, no browser, only values.
 
     Attributes:
-        facts: What the page knows.
+        facts: The header.
         commands: What draws it, in order (meshcat's protocol).
         arrays: Samples by name, each `(n, ...)`, float32 (times float64).
-        robot: Of the first figure; the live viewer asks its inverse kinematics. None: nobody answers.
+        robot: The first figure's, for inverse kinematics in the live viewer. None: the page uses its own.
     """
 
     facts: Facts

@@ -14,11 +14,11 @@ from exo_pin.retarget import Biped
 from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.viewer.meshes.solids import Solid
 
-THICK = 0.03
+_THICKNESS = 0.03
 """What lies less than this share of the leg above the lowest point belongs to the sole."""
 
-POINT = 0.012
-"""A sole reaches at least this far from its middle [m]: a point foot's."""
+_LEAST_HALF_WIDTH = 0.012
+"""A sole reaches at least this far from its middle [m], so that a point foot has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +62,11 @@ def soles(biped: Biped, shapes: dict[str, Solid]) -> tuple[Sole, Sole]:
 def _sole(biped: Biped, leg: RobotLeg, shapes: dict[str, Solid]) -> Sole:
     points = _points(biped, leg, shapes)
     if not len(points):
-        return _person_s(leg)
+        return _persons_sole(leg)
     ground = float(points[:, 2].min())
-    low = points[points[:, 2] < ground + THICK * leg.reach]
+    low = points[points[:, 2] < ground + _THICKNESS * leg.reach]
     ends = np.stack([low[:, :2].min(axis=0), low[:, :2].max(axis=0)])
-    middle, half = ends.mean(axis=0), np.maximum(np.ptp(ends, axis=0) / 2, POINT)
+    middle, half = ends.mean(axis=0), np.maximum(np.ptp(ends, axis=0) / 2, _LEAST_HALF_WIDTH)
     return _at(leg, ground, middle - half, middle + half)
 
 
@@ -86,8 +86,8 @@ def _points(biped: Biped, leg: RobotLeg, shapes: dict[str, Solid]) -> Array:
     return np.asarray(np.concatenate(rows) @ biped.rotation)
 
 
-def _person_s(leg: RobotLeg) -> Sole:
-    size, scale = _person(leg)
+def _persons_sole(leg: RobotLeg) -> Sole:
+    size, scale = _person_scale(leg)
     x, y, z = leg.ankle.tolist()
     heel, toes = x - scale * size.heel, x + scale * (size.foot_length - size.heel)
     half = scale * size.foot_width / 2
@@ -95,7 +95,7 @@ def _person_s(leg: RobotLeg) -> Sole:
     return _at(leg, ground, np.array([heel, y - half]), np.array([toes, y + half]))
 
 
-def _person(leg: RobotLeg) -> tuple[Leg, float]:
+def _person_scale(leg: RobotLeg) -> tuple[Leg, float]:
     """A person's leg, and the robot's over it."""
     size = Body.from_stature().leg("left")
     return size, leg.reach / (size.thigh + size.shank)
@@ -107,7 +107,7 @@ def _at(leg: RobotLeg, ground: float, low: Array, high: Array) -> Sole:
     T[:3, 3] = *leg.ankle[:2], ground
     low, high = low - leg.ankle[:2], high - leg.ankle[:2]
     medial, lateral = (low[1], high[1]) if leg.side == "left" else (high[1], low[1])
-    size, scale = _person(leg)
+    size, scale = _person_scale(leg)
     ball = min(float(high[0]), scale * size.ball)
     corners = np.array([[x, y, 0.0] for x in (low[0], ball) for y in (medial, lateral)])
     return Sole(leg.foot, np.linalg.inv(leg.T) @ T, corners, float(high[0]))

@@ -1,7 +1,7 @@
 """The person inside: a translucent figure whose legs hang on the exoskeleton's own links.
 
 The figure is `human_description` of example-robot-data (BSD-2-Clause, Gepetto team), welded, thinned and
-scaled to the body. Thighs, shanks and feet are pictures of the exoskeleton's links, so hips, knees and ankles
+scaled to the body. Thighs, shanks and feet hang on the exoskeleton's links, so hips, knees and ankles
 coincide with its joints by construction. The upper body is illustration: the trunk stays nearly upright, and
 the arms swing with the opposite hip.
 """
@@ -17,21 +17,20 @@ from exo_pin.anatomy import JOINTS, SIDES, Body, Leg
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.viewer.drawing_commands import Command, mesh, place, translation, translucent
+from exo_pin.viewer.drawing_commands import Command, mesh, place, translucent
 from exo_pin.viewer.meshes import solids
-from exo_pin.viewer.meshes.solids import Solid, sphere
+from exo_pin.viewer.meshes.solids import Solid, sphere, translation
 from exo_pin.viewer.scenes.actor import Actor
-from exo_pin.viewer.scenes.link_nodes import Turn
 from exo_pin.viewer.scenes.person_figure import part, scaled
-from exo_pin.viewer.scenes.scene import Chain, Group
+from exo_pin.viewer.scenes.scene import Chain, Group, JointNode
 
-SKIN = (0.80, 0.62, 0.50, 0.45)
+_SKIN = (0.80, 0.62, 0.50, 0.45)
 """Colour and opacity."""
 
-PLATE = 0.022
+_PLATE = 0.022
 """The foot stands on the exoskeleton's foot plate, so far above its sole [m]."""
 
-SPREAD = np.radians(11.0)
+_SPREAD = np.radians(11.0)
 """The arms are held so far away from the waist ring."""
 
 _THIGH, _SHANK, _HEAD = 0.439, 0.44, 0.8315  # the figure's own sizes [m]: hip to knee, to ankle, hip to crown
@@ -60,9 +59,9 @@ def wearer(body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Ar
     shapes = _middle(size) | _limb_shapes(body, size)
     commands = [_picture(path, shapes[name]) for name, path in (middle | left).items()]
     commands += [place(path, _mirrored(body, name)) for name, path in right.items()]
-    chain, joints = _arms(root, size)
+    chain, placements = _arms(root, size)
     return Actor(
-        commands=(*commands, *joints),
+        commands=(*commands, *placements),
         chain=chain,
         arrays={"wearer_q": _swing(gait), "wearer_base": _trunk(base, size)},
         group=Group("Wearer", (*middle.values(), *left.values(), *right.values())),
@@ -83,7 +82,7 @@ def _limbs(links: Mapping[str, str], root: str, side: Side) -> dict[str, str]:
 
 
 def _picture(path: str, solid: Solid) -> Command:
-    return translucent(path, mesh(solid.vertices, solid.faces, solid.normals), SKIN)
+    return translucent(path, mesh(solid.vertices, solid.faces, solid.normals), _SKIN)
 
 
 def _middle(size: float) -> dict[str, Solid]:
@@ -123,7 +122,7 @@ def _foot(leg: Leg) -> Solid:
     low, high = foot.vertices.min(axis=0), foot.vertices.max(axis=0)
     wide = 0.92 * leg.foot_width / float(high[1] - low[1])
     long = leg.foot_length / float(high[0] - low[0])
-    moved = scaled(foot, (long, wide, (leg.ankle_height - PLATE) / -float(low[2])))
+    moved = scaled(foot, (long, wide, (leg.ankle_height - _PLATE) / -float(low[2])))
     return moved.placed(translation(-leg.heel - float(moved.vertices[:, 0].min()), 0, 0))
 
 
@@ -136,7 +135,7 @@ def _mirrored(body: Body, name: str) -> Array:
         "foot": (
             right.foot_length / left.foot_length,
             right.foot_width / left.foot_width,
-            (right.ankle_height - PLATE) / (left.ankle_height - PLATE),
+            (right.ankle_height - _PLATE) / (left.ankle_height - _PLATE),
         ),
     }.get(name, (1, 1, 1))
     return np.diag([*np.array(along) * (1, -1, 1), 1.0])
@@ -144,16 +143,16 @@ def _mirrored(body: Body, name: str) -> Array:
 
 def _arms(root: str, size: float) -> tuple[Chain, list[Command]]:
     """The upper body's chain: two shoulders and two elbows that flex."""
-    turns, links, commands = [], {"trunk": root}, []
+    joints, links, commands = [], {"trunk": root}, []
     for side, s in zip(SIDES, (1, -1), strict=True):
         upper, fore = f"{root}/{side}_upper_arm", f"{root}/{side}_upper_arm/turn/{side}_forearm"
         hang = translation(*(size * _SHOULDER * (1, s, 1)))
-        hang[:3, :3] = pin.rpy.rpyToMatrix(s * SPREAD, 0.0, 0.0)
+        hang[:3, :3] = pin.rpy.rpyToMatrix(s * _SPREAD, 0.0, 0.0)
         commands += [place(upper, hang), place(fore, translation(0, 0, -size * _UPPER_ARM))]
         for name, path in ((f"{side}_shoulder", upper), (f"{side}_elbow", fore)):
-            turns.append(Turn(name, f"{path}/turn", (0.0, -1.0, 0.0), "revolute"))
+            joints.append(JointNode(name, f"{path}/turn", (0.0, -1.0, 0.0), "revolute"))
             links[name] = f"{path}/turn"
-    return Chain("wearer", root, links, tuple(turns), "wearer_q", "wearer_base"), commands
+    return Chain("wearer", root, links, tuple(joints), "wearer_q", "wearer_base"), commands
 
 
 def _swing(gait: Gait) -> Array:

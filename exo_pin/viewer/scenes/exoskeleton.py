@@ -1,0 +1,123 @@
+"""The exoskeleton's figures: itself, its ghost and its wearer, with its joint curves and foot handles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.anatomy.names import Side
+from exo_pin.arrays import Array
+from exo_pin.devices import TOES
+from exo_pin.gait import Gait, Torques
+from exo_pin.ground import PlacedWalk, aligned, alignment_note, place_walk, toe_angles
+from exo_pin.robot import Robot
+from exo_pin.viewer.scenes import joint_plots
+from exo_pin.viewer.scenes.actor import GHOST, Actor, Mount, chain_samples
+from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
+from exo_pin.viewer.scenes.scene import ROOT, Chain, Group, Handle
+from exo_pin.viewer.scenes.staging import SceneOptions, Staging
+from exo_pin.viewer.scenes.wearer import wearer as wearer_figure
+
+_BACKPACK = 0.34
+"""The device ends this far above the hips [m]."""
+
+
+def stage_exoskeleton(
+    robot: Robot,
+    gait: Gait,
+    options: SceneOptions,
+    *,
+    reference: Gait | None,
+    reference_title: str,
+    torques: Torques | None,
+    wearer: bool,
+) -> Staging:
+    """The exoskeleton's walk with its figures and curves; errors as in `exoskeleton_scene`.
+
+    Args:
+        robot: The exoskeleton, any device.
+        gait: The walk, heading along x.
+        options: What the scene shows besides.
+        reference: Curves to draw dashed, or None.
+        reference_title: What the dashed curves are.
+        torques: Joint torques on the walk's clock, or None.
+        wearer: Whether to draw the person, if the robot was made for one.
+    """
+    walk = place_walk(robot, gait, options.support)
+    tree = linkage(robot.urdf, f"{ROOT}/exo")
+    chain = Chain("exo", tree.root, tree.links, tree.joints, "q", "base")
+    samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)
+    actors = [Actor(tree.commands, chain, samples, Group("Exoskeleton", tree.visuals))]
+    tabs, notes = joint_plots.of_gait(robot, gait, reference, torques), []
+    if options.compare is not None:
+        second = aligned(gait, options.compare)
+        actors.append(_ghost(robot, second, options))
+        tabs = joint_plots.with_second_walk(tabs, joint_plots.of_gait(robot, second))
+        notes.append(alignment_note(gait, options.compare))
+    top = _BACKPACK
+    if wearer and robot.body is not None and robot.body.wearer:
+        actors.append(wearer_figure(robot.body, tree.links, f"{ROOT}/wearer", gait, walk.base))
+        top = robot.body.stature - robot.body.leg_length
+    return Staging(
+        robot=robot,
+        gait=gait,
+        walk=walk,
+        actors=tuple(actors),
+        mounts=tuple(_mount(robot, walk, tree, side) for side in SIDES),
+        handles=tuple(
+            Handle(foot, side) for foot, side in zip(FEET, SIDES, strict=True) if foot in tree.links
+        ),
+        tabs=tabs,
+        reference="" if reference is None else reference_title,
+        compared="" if options.compare is None else options.compare_title,
+        top=top,
+        notes=(*notes, *_notes(tree, actors), *joint_plots.notes(torques)),
+    )
+
+
+def _ghost(robot: Robot, gait: Gait, options: SceneOptions) -> Actor:
+    """A second walk of the same exoskeleton, on the clock of the first."""
+    walk = place_walk(robot, gait, options.support)
+    tree = linkage(robot.urdf, f"{ROOT}/ghost", paint=GHOST)
+    chain = Chain("ghost", tree.root, tree.links, tree.joints, "ghost_q", "ghost_base")
+    samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)
+    return Actor(tree.commands, chain, samples, Group(f"Ghost: {options.compare_title}", tree.visuals))
+
+
+def _angles(robot: Robot, walk: PlacedWalk, tree: Linkage) -> dict[str, Array]:
+    """Joint -> `(n,)` angles: the walk's own, and the toes' where the device has some [rad]."""
+    angles = dict(zip(robot.joints, walk.q.T, strict=True))
+    limits = {joint.name: joint.limits for joint in tree.joints if joint.name in TOES}
+    if robot.body is not None and limits:
+        for toe, q in toe_angles(robot.body, walk).items():
+            _, upper = limits[toe] or (0.0, 0.0)
+            angles[toe] = np.minimum(q, upper)
+    return angles
+
+
+def _mount(robot: Robot, walk: PlacedWalk, tree: Linkage, side: Side) -> Mount:
+    """The sole of a foot, from its corners as the foot's frame sees them."""
+    foot = SIDES.index(side)
+    mine = [k for k, name in enumerate(CORNERS) if name.startswith(side)]
+    T = walk.feet[0, foot]
+    corners = (walk.corners[0, mine] - T[:3, 3]) @ T[:3, :3]  # in the foot's own axes
+    heel, front = float(corners[:, 0].min()), float(corners[:, 0].max())
+    if robot.body is not None:  # the corners end at the ball of the foot, the plate at the toes
+        front = heel + robot.body.leg(side).foot_length
+    size = front - heel + 0.007, float(np.ptp(corners[:, 1])) + 0.009
+    return Mount(tree.links[FEET[foot]], np.eye(4), size, ((heel + front) / 2, 0.0, 0.006))
+
+
+def _notes(tree: Linkage, actors: Iterable[Actor]) -> list[str]:
+    notes = []
+    if tree.skipped:
+        notes.append(f"{tree.skipped} visuals of the URDF are meshes and are not drawn.")
+    if any(joint.name in TOES for joint in tree.joints):
+        notes.append("A gait has no toe angles: the toes bend as far as the ground demands.")
+    if any(actor.chain.name == "wearer" for actor in actors):
+        notes.append(
+            "The wearer's trunk and arms are illustration; hips, knees and ankles are the exoskeleton's."
+        )
+    return notes
