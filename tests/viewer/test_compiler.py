@@ -174,3 +174,8 @@ def test_a_walk_along_another_axis_of_its_laboratory_is_turned_to_the_cameras(ro
     assert np.abs(across.arrays["base"] - scene.arrays["base"]).max() < 1e-6
     assert any("Turned about the vertical" in note for note in across.facts.notes)
     assert not any("Turned about the vertical" in note for note in scene.facts.notes)
+
+
+def test_the_door_shows_the_exoskeleton_as_its_own_compiler_does(robot, gait, scene):
+    own = viewer.exoskeleton_scene(robot, gait)
+    assert viewer.html(own) == viewer.html(scene)

@@ -19,7 +19,7 @@ from exo_pin.viewer.live.foot_drag import ROTATION_WEIGHT, TOLERANCE, reach_solv
 
 FEET = ("left_foot", "right_foot")
 EXACT = 1e-6  # [m, rad]: what "reached" promises
-QUICK = 0.1  # [s]: an answer while a hand waits; measured 1 to 10 ms on two busy cores
+QUICK = 0.1  # [s] of a processor; measured 1 to 10 ms
 
 
 @pytest.fixture(scope="module")
@@ -116,11 +116,11 @@ def test_an_answer_comes_quickly(robot, scene, names):
     solve = reach_solver(robot, names)
 
     def cost():
-        start = time.perf_counter()
+        start = time.process_time()  # not by the wall clock: the machine may be busy
         solve(content)
-        return time.perf_counter() - start
+        return time.process_time() - start
 
-    assert min(cost() for _ in range(5)) < QUICK  # the best of some: the machine may be busy
+    assert min(cost() for _ in range(3)) < QUICK
 
 
 @pytest.mark.parametrize("device", ["lokomat", "lopes8", "h2"])

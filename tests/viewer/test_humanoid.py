@@ -151,9 +151,15 @@ def test_a_robot_from_load_urdf_is_shown_as_it_is():
     assert {"FL_FOOT", "FR_FOOT"} <= set(chain.links)
     assert scene.facts.title == "my robot"
     assert "exo_pin" in exo_pin.view(robot, GAIT)._repr_html_()
+    assert not any("not shown" in note for note in scene.facts.notes)
     bare = viewer.scene(load_urdf(robot.path.read_text()), GAIT)  # a text has no folder to look for meshes
     assert any("not drawn" in note for note in bare.facts.notes)
     assert any(path.endswith("/look") for group in bare.facts.groups for path in group.paths)
+
+
+def test_curves_that_another_robot_cannot_show_are_not_left_out_in_silence():
+    scene = viewer.scene(load_urdf(load("bolt").robot.path), GAIT, reference=GAIT)
+    assert any("Reference curves" in note and "not shown" in note for note in scene.facts.notes)
 
 
 def test_a_second_walk_is_a_ghost_of_the_same_robot():
