@@ -57,7 +57,7 @@ def _solve(robot: Robot, targets: dict[str, ik.Pose], start: Array) -> ik.Track:
         exact = ik.track(robot, targets, start, settings=ik.ClosedForm(tolerance=TOLERANCE))
         if exact.converged[0]:
             return exact
-    except DescriptionError:  # a leg that has none
+    except DescriptionError:  # a leg without a closed form
         pass
     return ik.track(robot, targets, start, settings=_NEAREST)
 

@@ -1,6 +1,6 @@
 """The live viewer: a small web server in a thread of this process, for this machine only.
 
-It speaks to its own page alone: other Host headers get 404 (DNS rebinding), other Origins no WebSocket, and
+It serves its own page alone: other Host headers get 404 (DNS rebinding), other Origins no WebSocket, and
 messages that are not understood are ignored. There is no ZMQ port as in meshcat's own server.
 """
 
@@ -107,7 +107,7 @@ class Server:
 
     def show(self, scene: Scene) -> bytes:
         """Show another scene in all pages, now and later; returns it packed."""
-        from exo_pin.viewer.page.bundle import bundle
+        from exo_pin.viewer.page.export import bundle
 
         packed = bundle(scene)
         self._loop.call_soon_threadsafe(self._install, packed, scene)

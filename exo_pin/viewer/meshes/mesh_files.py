@@ -31,7 +31,7 @@ class MeshPart:
         vertices: `(v, 3)` in the file's own unit, scaled to metres where the file names its unit.
         faces: `(f, 3)` rows of vertices.
         color: Red, green, blue, opacity, or None where the file names none.
-        y_up: Whether the file says that its y points up; most tools do not care.
+        y_up: Whether the file says that its y points up; most tools ignore it.
     """
 
     vertices: Array
@@ -109,7 +109,7 @@ _READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
 
 
 def _is_text(data: bytes, count: int) -> bool:
-    """A binary file has exactly the size that it says, or does not begin as a text."""
+    """Whether it begins as a text file and has not the size that a binary file's header gives."""
     return data.startswith(b"solid") and len(data) != _HEAD + count * _BINARY.itemsize
 
 

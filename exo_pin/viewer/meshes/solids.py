@@ -1,7 +1,7 @@
 """Boxes, cylinders and spheres as triangles with rounded edges, joined into one mesh per material.
 
-A link of twenty primitives costs twenty draw calls and looks like cardboard; joined it costs three or four,
-and edges whose normals turn from face to face catch the light as machined ones do.
+A link of twenty primitives would cost twenty draw calls; joined it costs three or four. Over a rounded edge
+the normals turn from face to face, so that it catches the light as a machined one does.
 """
 
 from __future__ import annotations

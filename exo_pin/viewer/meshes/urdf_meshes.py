@@ -1,6 +1,6 @@
 """The meshes that a URDF names: found inside its own package alone, thinned, in the link's own metres.
 
-A URDF may be anybody's, so no file name in it is followed out of the folders that belong to it: the URDF's
+A URDF is not trusted: no file name in it is followed out of the folders that belong to it: the URDF's
 own folder (and the one above, where it lies in a folder like `urdf/`), the package that it lies in, packages
 beside that one, those of ROS's search path, and example-robot-data.
 """

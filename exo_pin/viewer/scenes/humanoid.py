@@ -157,7 +157,7 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
         f"{degrees(errors.largest_rotation):.1f} degrees at most; {lean}. "
         "Dashed: the person's angles joint by joint.",
         target.remarks,
-        f"Its looks: {target.licence}, thinned." if target.licence and meshes.triangles else "",
+        f"Its meshes: {target.licence}, thinned." if target.licence and meshes.triangles else "",
     ]
     if tree.skipped:
         name, why = next(iter(meshes.missing.items()), ("a visual", "of no known kind"))

@@ -69,7 +69,7 @@ class Chain:
 
 @dataclass(frozen=True)
 class PhaseCycles:
-    """The gait cycles in which phase is counted: whose heel strikes cut them, from and to [s].
+    """The gait cycles in which phase is counted: side of the heel strikes between them, from and to [s].
 
     `side` is empty where no foot has a cycle, or a periodic walk has no heel strikes. The cycles of a
     periodic walk reach over its ends.

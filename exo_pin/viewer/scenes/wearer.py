@@ -1,4 +1,4 @@
-"""The person inside: a translucent figure whose legs hang on the exoskeleton's own links.
+"""The wearer: a translucent person whose legs hang on the exoskeleton's own links.
 
 The figure is `human_description` of example-robot-data (BSD-2-Clause, Gepetto team), welded, thinned and
 scaled to the body. Thighs, shanks and feet hang on the exoskeleton's links, so hips, knees and ankles
