@@ -62,6 +62,15 @@ def read(path: Path) -> list[MeshPart]:
 
 def stl(data: bytes) -> list[MeshPart]:
     """An STL file, binary or text."""
+    return [_welded(stl_corners(data))]
+
+
+def stl_corners(data: bytes) -> Array:
+    """Corners `(3 f, 3)` of the triangles of an STL file, three a triangle, in the file's own unit.
+
+    Raises:
+        ValueError: It is damaged.
+    """
     count = int.from_bytes(data[_HEAD - 4 : _HEAD], "little")
     if len(data) >= _HEAD and len(data) >= _HEAD + count * _BINARY.itemsize and not _is_text(data, count):
         corners = np.frombuffer(data, _BINARY, count, _HEAD)["corners"].reshape(-1, 3)
@@ -71,8 +80,7 @@ def stl(data: bytes) -> list[MeshPart]:
             raise ValueError("neither a binary nor a text STL")
         starts = np.flatnonzero(np.array(words, dtype=object) == "vertex")
         corners = np.array([words[k + 1 : k + 4] for k in starts], dtype=float).reshape(-1, 3)
-    corners = corners[: len(corners) // 3 * 3].astype(float)
-    return [_welded(corners)]
+    return np.asarray(corners[: len(corners) // 3 * 3], dtype=float)
 
 
 def obj(data: bytes) -> list[MeshPart]:

@@ -12,7 +12,8 @@ import numpy as np
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import ExoPinError
 from exo_pin.examples import located
-from exo_pin.viewer.meshes import mesh_files
+from exo_pin.files import read_bytes
+from exo_pin.viewer.meshes.mesh_files import stl_corners
 from exo_pin.viewer.meshes.solids import Solid
 
 _Triple = tuple[float, float, float]
@@ -54,8 +55,7 @@ def _smooth(vertices: Array, faces: Index) -> Solid:
 
 def _thinned(name: str) -> tuple[Array, Index]:
     """A mesh with its vertices clustered: smooth to look at, a tenth of the size."""
-    (mesh,) = mesh_files.read(_folder() / f"{name}_mesh.STL")
-    corners = mesh.vertices[mesh.faces].reshape(-1, 3)[:, [0, 2, 1]] * (1, -1, 1)  # the figure has y up
+    corners = stl_corners(read_bytes(_folder() / f"{name}_mesh.STL"))[:, [0, 2, 1]] * (1, -1, 1)  # y is up
     cell = _CELL * np.ptp(corners, axis=0).max()
     keys = np.floor((corners - corners.min(axis=0)) / cell).astype(int)
     flat = np.ravel_multi_index(tuple(keys.T), tuple(keys.max(axis=0) + 1))  # sorts faster than rows do
