@@ -40,7 +40,7 @@ def test_the_slide_of_either_foot_is_measured_while_it_stands_alone(side, first)
     corners[..., 2] = 0.2
     corners[:, first : first + 4, 2] = 0.0
     corners[:, first : first + 4, 1] = 0.03 * np.clip(time - 0.5, 0.0, 1.0)[:, None]
-    other = "right" if side == "left" else "left"
+    stance: Intervals = {"left": (), "right": (), side: ((0.5, 1.5),)}
     found = support(
         "still",
         gait,
