@@ -51,10 +51,10 @@ def test_its_feet_stand_on_the_belt_and_do_not_sink(stagings, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_sole_lies_level_under_its_ankle_with_the_heel_behind_and_the_inner_side_within(name):
-    machine = load(name)
-    tree, _ = robot_linkage(machine, "/x", None, ThinnedFiles())
-    left, right = soles(machine, tree.shapes)
-    for sole, leg, inwards in ((left, machine.legs[0], -1), (right, machine.legs[1], 1)):
+    biped = load(name)
+    tree, _ = robot_linkage(biped, "/x", None, ThinnedFiles())
+    left, right = soles(biped, tree.shapes)
+    for sole, leg, inwards in ((left, biped.legs[0], -1), (right, biped.legs[1], 1)):
         placed = leg.T @ sole.T  # standing, in the walker's axes
         assert placed[:3, :3] == pytest.approx(np.eye(3), abs=1e-9)
         assert placed[:2, 3] == pytest.approx(leg.ankle[:2], abs=1e-9)
@@ -88,11 +88,11 @@ def test_the_largest_offline_page_stays_reasonable():
 
 def test_collada_files_with_y_up_are_turned_where_that_fits_the_joints():
     """iCub's are made for tools that turn them: its shank's mesh then reaches to the ankle."""
-    machine = load("icub")
-    tree, meshes = robot_linkage(machine, "/x", None, ThinnedFiles())
+    biped = load("icub")
+    tree, meshes = robot_linkage(biped, "/x", None, ThinnedFiles())
     assert meshes.y_up
     assert meshes.turned
-    T_shank, T_ankle = poses(machine.robot, machine.stand, ("l_lower_leg", "l_ankle_pitch"))
+    T_shank, T_ankle = poses(biped.robot, biped.stand, ("l_lower_leg", "l_ankle_pitch"))
     ankle = np.linalg.inv(T_shank) @ T_ankle[:, 3]
     mesh = tree.shapes["l_lower_leg"].vertices
     assert (mesh.min(axis=0) - 0.02 < ankle[:3]).all()
@@ -111,22 +111,22 @@ def test_capsules_and_plates_stand_for_links_without_visuals(stagings, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_plots_and_sliders_are_those_of_its_leg_joints_with_their_limits(stagings, name):
-    staging, machine = stagings[name], load(name)
-    per_leg = len(machine.legs[0].joints)
+    staging, biped = stagings[name], load(name)
+    per_leg = len(biped.legs[0].joints)
     for tab, lower, upper in zip(
-        groups(staging.tabs), (machine.robot.lower, -machine.robot.velocity), (machine.robot.upper, None),
+        groups(staging.tabs), (biped.robot.lower, -biped.robot.velocity), (biped.robot.upper, None),
         strict=True,
     ):  # fmt: skip
         assert len(tab.plots) == per_leg
         for plot in tab.plots:
             assert [series.side for series in plot.series] == ["left", "right"]
             for series in plot.series:
-                k = machine.robot.joints.index(machine.joints[series.column])
+                k = biped.robot.joints.index(biped.joints[series.column])
                 assert series.lower == pytest.approx(max(lower[k], -1e6))
                 if upper is not None:
                     assert series.upper == pytest.approx(upper[k])
     sliders = [joint for joint in staging.actors[0].chain.joints if joint.limits is not None]
-    assert {joint.name for joint in sliders} == set(machine.joints)
+    assert {joint.name for joint in sliders} == set(biped.joints)
     assert {joint.side for joint in sliders} == {"left", "right"}
 
 

@@ -148,13 +148,13 @@ def _shared(left: str, right: str) -> str:
 
 
 def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
-    target, biped = result.target, result.biped
-    position, rotation = result.errors.largest_position, result.errors.largest_rotation
+    target, biped, errors = result.target, result.biped, result.errors
     legs = f"{biped.joints_per_leg} joints per leg, hip {biped.hip_order}"
     lean = f"the trunk is upright, the hips take over {degrees(result.lean):.1f} degrees of the pelvis's lean"
     notes = [
         f"{target.title or target.name}: {legs}; the feet's paths are {np.mean(result.scale):.2f} times the "
-        f"person's, missed by {1e3 * position:.2f} mm and {degrees(rotation):.1f} degrees at most; {lean}. "
+        f"person's, missed by {1e3 * errors.largest_position:.2f} mm and "
+        f"{degrees(errors.largest_rotation):.1f} degrees at most; {lean}. "
         "Dashed: the person's angles joint by joint.",
         target.remarks,
         f"Its meshes: {target.licence}, thinned." if target.licence and meshes.triangles else "",
