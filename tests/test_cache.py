@@ -65,13 +65,13 @@ def test_the_folder_follows_the_systems_custom(monkeypatch, tmp_path):
 
 
 def test_the_oldest_go_when_there_are_many(home):
-    for k in range(cache.KEPT + 5):
+    for k in range(cache.MOST_RESULTS + 5):
         cache.keep("kind", str(k), b"data")
         os.utime(home / f"kind-{k}", (k, k))
     cache.keep("other", "name", b"data")
     assert cache.recall("kind", "0") is None
-    assert cache.recall("kind", str(cache.KEPT + 4)) == b"data"
-    assert len(list(home.glob("kind-*"))) <= cache.KEPT
+    assert cache.recall("kind", str(cache.MOST_RESULTS + 4)) == b"data"
+    assert len(list(home.glob("kind-*"))) <= cache.MOST_RESULTS
 
 
 def test_writers_at_the_same_time_leave_a_whole_result(home):

@@ -1,22 +1,42 @@
-"""Samples of a recording that stand out of their curve, for `info` and `cycles`."""
+"""Outliers of a recording's curves, for `info` and `cycles`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
 
-LEAST = {"deg": 1.0, "mm": 10.0}
+_LEAST = {"deg": 1.0, "mm": 10.0}
 """Smaller deviations are noise: what recordings of 60 Hz have in their quickest curves stays below."""
 
-SHOWN = 6
+_SHOWN = 6
 """Lines that are printed; JSON holds all."""
 
 
-def facts(gait: Gait) -> list[dict[str, Any]]:
-    """Joint angles and the pelvis's place: which sample, when, how far off the curve around it."""
+class CurveOutlier(NamedTuple):
+    """A sample that stands out of its curve.
+
+    Attributes:
+        curve: A joint, or a coordinate of the pelvis.
+        time: When [s].
+        off: How far it is off the curve around it.
+        unit: Of `off`: deg or mm.
+    """
+
+    curve: str
+    time: float
+    off: float
+    unit: str
+
+    def to_json(self) -> dict[str, Any]:
+        """As `--json` prints it."""
+        return {"curve": self.curve, "time_s": self.time, "off": self.off, "unit": self.unit}
+
+
+def find(gait: Gait) -> tuple[CurveOutlier, ...]:
+    """The outliers among joint angles and the pelvis's place."""
     import numpy as np
 
     from exo_pin import signals
@@ -25,19 +45,17 @@ def facts(gait: Gait) -> list[dict[str, Any]]:
     curves = [(np.degrees(gait.q), JOINTS, "deg")]
     if gait.base is not None:
         curves.append((1e3 * gait.base[:, :3, 3], ("pelvis_x", "pelvis_y", "pelvis_z"), "mm"))
-    return [
-        {"curve": found.name, "time_s": found.time, "off": found.off, "unit": unit}
+    return tuple(
+        CurveOutlier(found.name, found.time, found.off, unit)
         for values, names, unit in curves
-        for found in signals.outliers(gait.time, values, names, least=LEAST[unit])
-    ]
+        for found in signals.outliers(gait.time, values, names, least=_LEAST[unit])
+    )
 
 
-def show(found: Sequence[dict[str, Any]]) -> None:
+def show(found: Sequence[CurveOutlier]) -> None:
     """One line for each of the furthest."""
-    ordered = sorted(found, key=lambda x: -abs(x["off"]))
-    for x in ordered[:SHOWN]:
-        print(
-            f"outlier: {x['curve']} at {x['time_s']:.3f} s is {x['off']:+.1f} {x['unit']} off its neighbours"
-        )
-    if len(ordered) > SHOWN:
-        print(f"... and {len(ordered) - SHOWN} outliers more (--json lists all)")
+    ordered = sorted(found, key=lambda x: -abs(x.off))
+    for x in ordered[:_SHOWN]:
+        print(f"outlier: {x.curve} at {x.time:.3f} s is {x.off:+.1f} {x.unit} off its neighbours")
+    if len(ordered) > _SHOWN:
+        print(f"... and {len(ordered) - _SHOWN} outliers more (--json lists all)")

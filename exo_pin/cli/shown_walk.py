@@ -81,7 +81,9 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         robot, shown, said = _on_device(args, body, gait)
         notes.append(said)
         title = f"{name} on {said.partition(' (')[0]}"
-    second = None if args.compare is None else options.load(args.compare, body, preset=args.preset)
+    second = (
+        None if args.compare is None else options.load(args.compare, body, args.files, preset=args.preset)
+    )
     return viewer.scene(
         robot,
         shown,
@@ -117,7 +119,9 @@ def _of_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     )
     return viewer.retargeted(
         walk,
-        compare=None if args.compare is None else options.load(args.compare, body, preset=args.preset),
+        compare=None
+        if args.compare is None
+        else options.load(args.compare, body, args.files, preset=args.preset),
         compare_title=Path(args.compare or "").name,
         title=f"{Path(args.gait).name} on {title} - exo_pin",
         support=args.support,

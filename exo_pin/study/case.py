@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin import version
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import SignPreset
 from exo_pin.compare import PHASES, Conditions, Loss, compare
 from exo_pin.description import sources
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
-from exo_pin.formats import is_markers, load_gait
+from exo_pin.formats import load_gait, open_trial
 from exo_pin.gait import Gait, implausibilities, normative_gait
 from exo_pin.study.study_table import MOTIONS, Row, phase_column
 
@@ -46,7 +47,7 @@ class Case:
     body: Body | None
     parts: tuple[tuple[Conditions, Device], ...]
     path: str = ""
-    preset: str | None = None
+    preset: SignPreset | None = None
     version: str = field(default_factory=lambda: version.__version__)
 
     @functools.cached_property
@@ -115,12 +116,13 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     if not case.path:
         body = case.body or Body.from_stature()
         return normative_gait(case.gait, leg_length=body.leg_length), body
-    if is_markers(case.path):
+    file = open_trial(case.path)
+    if file.needs_inverse_kinematics:
         from exo_pin.markers import load_walk
 
-        trial = load_walk(case.path)
+        trial = load_walk(file)
         return trial.gait, case.body or trial.body
-    return load_gait(case.path, preset=case.preset), case.body or Body.from_stature()
+    return load_gait(file, preset=case.preset), case.body or Body.from_stature()
 
 
 def _rows(case: Case, gait: Gait, body: Body, granted: Conditions) -> Iterator[Row]:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from exo_pin.anatomy import SIDES
 from exo_pin.cli import options, outliers, show, trials
-from exo_pin.errors import GaitError
+from exo_pin.cli.walk_facts import WalkFacts, walk_facts
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Cycles, Gait
-    from exo_pin.robot import Robot
+    from exo_pin.gait import Cycles
 
 _EXAMPLES = """examples:
   exo-pin cycles walk.mot                      numbers of the walk, against those of healthy adults
@@ -47,16 +46,17 @@ def run(args: argparse.Namespace) -> int:
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
-    odd = outliers.facts(gait)  # before the filter spreads them
+    odd = outliers.find(gait)  # before the filter spreads them
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
     cut = cycles(gait, args.side or side_with_more_strides(gait))
-    found = facts(robot, gait) | {"source": gait.source, "outliers": odd}
+    facts = walk_facts(robot, gait)
     if args.json:
-        show.as_json(found)
+        show.as_json(facts.to_json() | {"source": gait.source, "outliers": [x.to_json() for x in odd]})
     else:
-        _print(args, cut, found)
+        _print(args, cut, facts, gait.source)
+        outliers.show(odd)
     if args.output:
         _write(args.output, cut, gait.source)
         if not args.json:
@@ -64,53 +64,6 @@ def run(args: argparse.Namespace) -> int:
     if args.mean:
         save_gait(cut.average(f"{gait.source}; mean of {count(cut)}"), args.mean)
     return 0
-
-
-def facts(robot: Robot, gait: Gait) -> dict[str, Any]:
-    """Cycles by side, spans that are none and why, the spatiotemporal numbers; or why there are none."""
-    from exo_pin.gait import against_normal, normal, strides
-    from exo_pin.gait.reference_values import CITATIONS
-    from exo_pin.kinematics import spatiotemporal
-
-    none: dict[str, Any] = {
-        "events_by": sorted({e.source or "not stated" for e in gait.events}),
-        "cycles": {},
-        "left_out": [],
-        "spatiotemporal": {},
-        "sources": {},
-    }
-    try:
-        numbers = spatiotemporal(robot, gait)
-    except GaitError as error:
-        return none | {"no_cycles": str(error)}
-    spans = [span for side in SIDES for span in strides(gait, side)]
-    legs = robot.body.leg_length if robot.body else float("nan")
-    usual, verdicts = normal(numbers, leg_length=legs), against_normal(numbers, leg_length=legs)
-    return none | {
-        "cycles": {side: sum(span.side == side and not span.why for span in spans) for side in SIDES},
-        "left_out": [
-            {"side": x.side, "start_s": x.start, "end_s": x.end, "why": x.why} for x in spans if x.why
-        ],
-        "spatiotemporal": {
-            name: {
-                "mean": x.mean,
-                "sd": None if x.sd != x.sd else x.sd,
-                "n": x.n,
-                "unit": x.unit,
-                "normal": verdicts.get(name),
-                "usual": usual[name]._asdict() if name in usual else None,
-            }
-            for name, x in numbers.items()
-        },
-        "sources": {key: CITATIONS[key] for key in CITATIONS if key in {x.source for x in usual.values()}},
-        "no_cycles": "",
-    }
-
-
-def print_left_out(found: dict[str, Any]) -> None:
-    """Spans between heel strikes that are no strides, and why."""
-    for span in found["left_out"]:
-        print(f"left out: {span['side']} {span['start_s']:.2f} .. {span['end_s']:.2f} s: {span['why']}")
 
 
 def count(cut: Cycles) -> str:
@@ -123,29 +76,31 @@ def _rounded(value: float, unit: str) -> str:
     return show.fixed(value, 3 if unit in ("m", "s", "m/s") else 1)
 
 
-def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None:
-    print(f"source: {found['source'] or 'not stated'}; events: {', '.join(found['events_by'])}")
+def _row(facts: WalkFacts, name: str) -> list[str]:
+    """A spatiotemporal number, its usual range, and the number of the range's source."""
+    x, usual = facts.numbers[name], facts.usual.get(name)
+    return [
+        f"{name.replace('_', ' ')}, {x.unit}",
+        _rounded(x.mean, x.unit),
+        "-" if x.sd != x.sd else _rounded(x.sd, x.unit),
+        str(x.n),
+        f"{usual.low:.3g} .. {usual.high:.3g}" if usual else "-",
+        facts.verdicts.get(name) or "-",
+        str(list(facts.citations).index(usual.source) + 1) if usual else "-",
+    ]
+
+
+def _print(args: argparse.Namespace, cut: Cycles, facts: WalkFacts, source: str) -> None:
+    print(f"source: {source or 'not stated'}; events: {', '.join(facts.events_by)}")
     from exo_pin.gait.zeni_method import ZENI
 
-    sources = list(found["sources"])
-    rows = [
-        [
-            f"{name.replace('_', ' ')}, {x['unit']}",
-            _rounded(x["mean"], x["unit"]),
-            "-" if x["sd"] is None else _rounded(x["sd"], x["unit"]),
-            str(x["n"]),
-            f"{x['usual']['low']:.3g} .. {x['usual']['high']:.3g}" if x["usual"] else "-",
-            x["normal"] or "-",
-            str(sources.index(x["usual"]["source"]) + 1) if x["usual"] else "-",
-        ]
-        for name, x in found["spatiotemporal"].items()
-    ]
+    rows = [_row(facts, name) for name in facts.numbers]
     title = f"{args.gait}: {count(cut)}"
     show.table(title, ["number", "mean", "sd", "n", "usual", "this", "source"], rows)
-    for k, citation in enumerate(found["sources"].values()):
+    for k, citation in enumerate(facts.citations.values()):
         print(f"{k + 1}  {citation}")
     print("-  no published range was checked")
-    if any(ZENI in by and "plate" not in by for by in found["events_by"]):
+    if any(ZENI in by and "plate" not in by for by in facts.events_by):
         print(
             "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
         )
@@ -154,8 +109,7 @@ def _print(args: argparse.Namespace, cut: Cycles, found: dict[str, Any]) -> None
         print("lengths and width are the default body's: --stature, --hip-width or --body tell the person's")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
-    print_left_out(found)
-    outliers.show(found["outliers"])
+    facts.print_left_out()
 
 
 def _write(path: str, cut: Cycles, source: str) -> None:

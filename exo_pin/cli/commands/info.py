@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from exo_pin.cli import options, outliers, show, trials
-from exo_pin.cli.commands import cycles
+from exo_pin.cli.walk_facts import WalkFacts, walk_facts
+
+if TYPE_CHECKING:
+    from exo_pin.gait import Gait
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
@@ -24,48 +28,70 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what the gait holds."""
-    facts = _facts(args)
+    info = _info(args)
     if args.json:
-        show.as_json(facts)
-        return 0
-    rows = [
-        [
-            joint,
-            show.fixed(r["min_deg"]),
-            show.fixed(r["max_deg"]),
-            show.fixed(r["peak_speed_deg_s"], 0),
-            r["outside"] or "-",
-        ]
-        for joint, r in facts["joints"].items()
-    ]
-    kind = "one cycle, repeated" if facts["periodic"] else "a recording"
-    title = f"{args.gait}: {kind}, {facts['samples']} samples in {facts['duration_s']:.3f} s"
-    columns = ["joint", "min deg", "max deg", "peak deg/s", "outside limits"]
-    show.table(title, columns, [[str(cell) for cell in row] for row in rows])
-    moves = "pelvis moves" if facts["pelvis_moves"] else "pelvis does not move"
-    print(f"source: {facts['source'] or 'not stated'}\n{moves}; events: {len(facts['events']) or 'none'}")
-    for event in facts["events"]:
-        print(f"  {event['time_s']:.3f} s  {event['side']} {event['kind']}  ({event['source']})")
-    if facts["events_note"] and facts["no_cycles"] not in facts["events_note"]:
-        print(f"  {facts['events_note']}")
-    _print_walk(facts)
+        show.as_json(info.to_json(markers=trials.to_json(args)) | info.walk.to_json())
+    else:
+        _print(args.gait, info)
     return 0
 
 
-def _print_walk(facts: dict[str, Any]) -> None:
-    """Cycles and plausibility."""
-    if facts["cycles"]:
-        counts = ", ".join(f"{n} {side}" for side, n in facts["cycles"].items())
-        speed, cadence = (facts["spatiotemporal"].get(name, {}) for name in ("speed", "cadence"))
-        print(f"cycles: {counts}; {speed['mean']:.2f} m/s, {cadence['mean']:.0f} steps/min (exo-pin cycles)")
-    else:
-        print(f"cycles: {facts['no_cycles']}")
-    cycles.print_left_out(facts)
-    outliers.show(facts["outliers"])
-    print("plausible" if not facts["doubts"] else "doubtful: " + "; ".join(facts["doubts"]))
+class _Range(NamedTuple):
+    """What a joint does.
+
+    Attributes:
+        least: Smallest angle [deg].
+        most: Largest angle [deg].
+        peak: Largest speed [deg/s].
+        outside: Samples outside the joint's limits.
+    """
+
+    least: float
+    most: float
+    peak: float
+    outside: int
 
 
-def _facts(args: argparse.Namespace) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class _Info:
+    """The gait, and what follows from it; `note` says why there are no events, or is empty."""
+
+    gait: Gait
+    joints: dict[str, _Range]
+    note: str
+    outliers: tuple[outliers.CurveOutlier, ...]
+    doubts: tuple[str, ...]
+    walk: WalkFacts
+
+    def to_json(self, *, markers: dict[str, Any] | None) -> dict[str, Any]:
+        """As `--json` prints it, but for the walk."""
+        gait = self.gait
+        return {
+            "source": gait.source,
+            "samples": len(gait.time),
+            "duration_s": gait.duration,
+            "periodic": gait.periodic,
+            "pelvis_moves": gait.base is not None,
+            "joints": {
+                joint: {
+                    "min_deg": x.least,
+                    "max_deg": x.most,
+                    "peak_speed_deg_s": x.peak,
+                    "outside": x.outside,
+                }
+                for joint, x in self.joints.items()
+            },
+            "events": [
+                {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
+            ],
+            "events_note": self.note,
+            "markers": markers,
+            "outliers": [x.to_json() for x in self.outliers],
+            "doubts": list(self.doubts),
+        }
+
+
+def _info(args: argparse.Namespace) -> _Info:
     import numpy as np
 
     from exo_pin.demand import range_demands
@@ -77,27 +103,46 @@ def _facts(args: argparse.Namespace) -> dict[str, Any]:
     gait, note = options.with_events(robot, options.gait_from(args, body))
     ranges = range_demands(robot, robot.from_gait(gait))
     peaks = np.degrees(np.abs(gait.dq).max(axis=0))
-    return {
-        "source": gait.source,
-        "samples": len(gait.time),
-        "duration_s": gait.duration,
-        "periodic": gait.periodic,
-        "pelvis_moves": gait.base is not None,
-        "joints": {
-            joint: {
-                "min_deg": float(np.degrees(demand.lowest)),
-                "max_deg": float(np.degrees(demand.highest)),
-                "peak_speed_deg_s": float(peak),
-                "outside": demand.samples_outside,
-            }
-            for peak, (joint, demand) in zip(peaks, ranges.items(), strict=True)
-        },
-        "events": [
-            {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
-        ],
-        "events_note": note,
-        "markers": trials.facts(args),
-        "outliers": outliers.facts(gait),
-        "doubts": [*implausibilities(gait), *trials.doubts(args)],
-        **cycles.facts(robot, gait),
+    joints = {
+        joint: _Range(
+            float(np.degrees(demand.lowest)),
+            float(np.degrees(demand.highest)),
+            float(peak),
+            demand.samples_outside,
+        )
+        for peak, (joint, demand) in zip(peaks, ranges.items(), strict=True)
     }
+    reasons = (*implausibilities(gait), *trials.doubts(args))
+    return _Info(gait, joints, note, outliers.find(gait), reasons, walk_facts(robot, gait))
+
+
+def _print(name: str, info: _Info) -> None:
+    gait = info.gait
+    rows = [
+        [joint, show.fixed(x.least), show.fixed(x.most), show.fixed(x.peak, 0), str(x.outside or "-")]
+        for joint, x in info.joints.items()
+    ]
+    kind = "one cycle, repeated" if gait.periodic else "a recording"
+    title = f"{name}: {kind}, {len(gait.time)} samples in {gait.duration:.3f} s"
+    show.table(title, ["joint", "min deg", "max deg", "peak deg/s", "outside limits"], rows)
+    moves = "pelvis moves" if gait.base is not None else "pelvis does not move"
+    print(f"source: {gait.source or 'not stated'}\n{moves}; events: {len(gait.events) or 'none'}")
+    for event in gait.events:
+        print(f"  {event.time:.3f} s  {event.side} {event.kind}  ({event.source})")
+    if info.note and info.walk.no_cycles not in info.note:
+        print(f"  {info.note}")
+    _print_walk(info)
+
+
+def _print_walk(info: _Info) -> None:
+    """Cycles, outliers and plausibility."""
+    walk = info.walk
+    if walk.cycles:
+        counts = ", ".join(f"{n} {side}" for side, n in walk.cycles.items())
+        speed, cadence = walk.numbers["speed"].mean, walk.numbers["cadence"].mean
+        print(f"cycles: {counts}; {speed:.2f} m/s, {cadence:.0f} steps/min (exo-pin cycles)")
+    else:
+        print(f"cycles: {walk.no_cycles}")
+    walk.print_left_out()
+    outliers.show(info.outliers)
+    print("plausible" if not info.doubts else "doubtful: " + "; ".join(info.doubts))
