@@ -1,4 +1,4 @@
-"""Results kept between runs in the user's cache folder: checked when read, silent when that fails.
+"""Cache of results between runs, in the user's cache folder: checked when read, silent on failure.
 
 The folder is `$XDG_CACHE_HOME/exo_pin` (`~/.cache/exo_pin`), or what `EXO_PIN_CACHE` names; if that is empty,
 nothing is kept. It may be deleted at any time.
@@ -18,7 +18,7 @@ from exo_pin.files import write_bytes
 VARIABLE = "EXO_PIN_CACHE"
 """Environment variable that names the folder."""
 
-KEPT = 40
+MOST_RESULTS = 40
 """At most so many results of a kind are kept; the oldest go first."""
 
 _DIGEST = hashlib.sha256().digest_size
@@ -26,9 +26,9 @@ _DIGEST = hashlib.sha256().digest_size
 
 def folder() -> Path | None:
     """Where results are kept, or None: nowhere."""
-    asked = os.environ.get(VARIABLE)
-    if asked is not None:
-        return Path(asked) if asked else None
+    chosen = os.environ.get(VARIABLE)
+    if chosen is not None:
+        return Path(chosen) if chosen else None
     try:
         return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "exo_pin"
     except RuntimeError:  # nobody's home is known
@@ -61,7 +61,13 @@ def recall(kind: str, name: str) -> bytes | None:
 
 
 def keep(kind: str, name: str, data: bytes) -> None:
-    """Keep a result for later runs: whole or not at all, whoever else writes at the same time."""
+    """Keep a result for later runs: whole or not at all, also when other processes write.
+
+    Args:
+        kind: Of result; each kind has its own number of results.
+        name: Of `key`.
+        data: The result.
+    """
     home = folder()
     if home is None:
         return
@@ -73,5 +79,5 @@ def keep(kind: str, name: str, data: bytes) -> None:
 
 def _forget(home: Path, kind: str) -> None:
     files = sorted(home.glob(f"{kind}-*"), key=lambda file: file.stat().st_mtime, reverse=True)
-    for file in files[KEPT:]:
+    for file in files[MOST_RESULTS:]:
         file.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Sampled curves made fit for use: low-pass filter, gaps, spikes."""
+"""Signal processing of sampled curves: low-pass filter, filling of gaps, outliers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 
 CUTOFF = 6.0
-"""The gait laboratories' habit [Hz]."""
+"""Usual in gait laboratories [Hz]."""
 
 ORDER = 4
 """Of forward and backward pass together."""
@@ -20,16 +20,16 @@ ORDER = 4
 GAP = 0.2
 """Longest gap that is filled [s]: a sixth of a stride."""
 
-STANDS_OUT = 8.0
+_OUTLIER_FACTOR = 8.0
 """A sample is an outlier if it is this many times the usual deviation off the curve around it."""
 
-TINY = 1e-12
+_ROUNDING = 1e-12
 """Deviations below are rounding."""
 
-EVEN = 1e-3
+EVEN_GRID = 1e-3
 """How far samples may lie off an even grid, as a fraction of the step ..."""
 
-ROUNDED = 1.1e-3
+ROUNDED_TIME = 1.1e-3
 """... or this far [s]: files round times to milliseconds, the camera did not."""
 
 
@@ -127,7 +127,7 @@ def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
 
 
 def longest_run(good: ArrayLike) -> tuple[int, int]:
-    """Start and stop of the longest run of True in `(n,)`; 0 and 0 if there is none."""
+    """Start and stop of the longest run of True in `(n,)`; 0 and 0 without any."""
     marked = np.concatenate([[False], np.asarray(good, dtype=bool), [False]])
     runs = np.flatnonzero(marked[1:] != marked[:-1]).reshape(-1, 2)
     if not len(runs):
@@ -136,7 +136,7 @@ def longest_run(good: ArrayLike) -> tuple[int, int]:
     return int(start), int(stop)
 
 
-def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = STANDS_OUT, least: float = 0.0) -> Array:
+def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = _OUTLIER_FACTOR, least: float = 0.0) -> Array:
     """How far samples stand out of their surroundings: 0 where they do not, and at two samples of each end.
 
     Each sample is compared with the cubic through its two neighbours on either side. It stands out if it is
@@ -160,13 +160,13 @@ def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = STANDS_OUT, least: 
     usual = 1.4826 * np.median(np.abs(away), axis=0)
     padded = np.pad(np.abs(away), [(2, 2)] + [(0, 0)] * (values.ndim - 1))
     highest = np.lib.stride_tricks.sliding_window_view(padded, 5, axis=0).max(axis=-1)
-    out = (np.abs(away) > np.maximum(factor * usual, max(least, TINY))) & (np.abs(away) == highest)
+    out = (np.abs(away) > np.maximum(factor * usual, max(least, _ROUNDING))) & (np.abs(away) == highest)
     off[2:-2] = np.where(out, away, 0.0)
     return off
 
 
 def outliers(time: ArrayLike, y: ArrayLike, names: Sequence[str], *, least: float) -> tuple[Outlier, ...]:
-    """The samples of named curves that stand out (`spikes`), sorted by time.
+    """The samples of named curves that are outliers (`spikes`), sorted by time.
 
     Args:
         time: `(n,)` increasing [s].
@@ -196,6 +196,6 @@ def _rate(time: Array) -> float:
         raise GaitError(f"{len(time)} samples are too few to filter; 10 are accepted")
     step = float(time[-1] - time[0]) / (len(time) - 1)
     off = float(np.abs(time - time[0] - step * np.arange(len(time))).max())
-    if off > max(EVEN * step, min(ROUNDED, step / 4)):
+    if off > max(EVEN_GRID * step, min(ROUNDED_TIME, step / 4)):
         raise GaitError(f"samples lie up to {off:.2g} s off an even grid; resample before filtering")
     return 1.0 / step

@@ -65,13 +65,13 @@ def test_the_folder_follows_the_systems_custom(monkeypatch, tmp_path):
 
 
 def test_the_oldest_go_when_there_are_many(home):
-    for k in range(cache.KEPT + 5):
+    for k in range(cache.MOST_RESULTS + 5):
         cache.keep("kind", str(k), b"data")
         os.utime(home / f"kind-{k}", (k, k))
     cache.keep("other", "name", b"data")
     assert cache.recall("kind", "0") is None
-    assert cache.recall("kind", str(cache.KEPT + 4)) == b"data"
-    assert len(list(home.glob("kind-*"))) <= cache.KEPT
+    assert cache.recall("kind", str(cache.MOST_RESULTS + 4)) == b"data"
+    assert len(list(home.glob("kind-*"))) <= cache.MOST_RESULTS
 
 
 def test_writers_at_the_same_time_leave_a_whole_result(home):
@@ -97,7 +97,6 @@ def test_a_urdf_of_an_earlier_run_is_the_same_text(home):
     body = Body.from_stature(1.681)
     first = description.urdf(body)
     assert [file.name.split("-")[0] for file in home.iterdir()] == ["urdf"]
-    description._expand.cache_clear()  # as in a new process
     assert description.urdf(body) == first
     other = description.urdf(Body.from_stature(1.682))
     assert other != first
@@ -109,6 +108,5 @@ def test_a_change_of_the_sources_makes_a_new_urdf(home, monkeypatch):
     description.urdf(body)
     makers = description._makers()
     monkeypatch.setattr(description, "_makers", lambda: (*makers[:-1], makers[-1] + b"<!-- changed -->"))
-    description._expand.cache_clear()
     description.urdf(body)
     assert len(list(home.iterdir())) == 2

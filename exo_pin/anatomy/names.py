@@ -5,7 +5,7 @@ Words from a closed vocabulary have a `Literal` type here, so that type checkers
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 Side = Literal["left", "right"]
 Movement = Literal[
@@ -27,6 +27,12 @@ PassiveJoints = Literal["held", "released"]
 SupportStyle = Literal["carried", "still"]
 """How the balance support moves the pelvis in a picture: with the walk, or not at all."""
 AngleUnit = Literal["deg", "rad"]
+Vertical = Literal["+x", "+y", "+z", "-x", "-y", "-z"]
+"""The axis of a laboratory that points up."""
+PelvisRotation = Literal["tilt", "list", "rotation"]
+"""A rotation of OpenSim's pelvis about its z, x or y."""
+SignPreset = Literal["exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"]
+"""Sign convention of a laboratory or a model family."""
 
 SIDES: tuple[Side, ...] = ("left", "right")
 
@@ -39,6 +45,8 @@ MOVEMENTS: tuple[Movement, ...] = (
     "ankle_inversion",
 )
 """Movements of a leg; the name is the positive direction on both sides (hip_rotation: internal)."""
+
+SIGN_PRESETS: tuple[SignPreset, ...] = get_args(SignPreset)
 
 JOINTS = tuple(f"{side}_{movement}" for side in SIDES for movement in MOVEMENTS)
 """The 12 joints in the order of `Gait.q`."""

@@ -10,17 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.body import both_sides
+from exo_pin.anatomy.names import SIGN_PRESETS
 from exo_pin.cli import plate_options, trials
+from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
     from exo_pin.robot import Robot
-
-
-PRESETS = ("exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig")
-"""Those of `exo_pin.formats`, which takes time to import."""
 
 
 def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -> None:
@@ -40,18 +38,18 @@ def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -
 
 def add_preset(parser: argparse._ActionsContainer, what: str) -> None:
     """The sign convention of a laboratory."""
-    parser.add_argument("--preset", choices=PRESETS, help=what)
+    parser.add_argument("--preset", choices=SIGN_PRESETS, help=what)
 
 
 def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     """The gait that the arguments name; reasons to doubt how it was read go to stderr."""
     walk = trials.gait(args)
     if walk is None:
-        told = {"preset": args.preset, "mapping": trials.mapping(args), "units": args.units}
-        walk = load(args.gait, body, **told, **trials.opensim(args))
+        options = {"preset": args.preset, "mapping": trials.mapping(args), "units": args.units}
+        walk = load(args.gait, body, args.files, **options, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {walk.source}", file=sys.stderr)
-    walk = plate_options.struck(args, body, walk)
+    walk = plate_options.with_plate_events(args, body, walk)
     from exo_pin.gait import implausibilities
 
     for reason in (*implausibilities(walk), *trials.doubts(args)):
@@ -59,10 +57,22 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     return walk
 
 
-def load(name: str, body: Body, **reading: Any) -> Gait:
-    """A gait by file or speed; a normal walk's stride time follows the body's legs."""
+def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any) -> Gait:
+    """A gait by file or speed; a normal walk's stride time follows the body's legs.
+
+    Args:
+        name: A file, or one of `SPEEDS`.
+        body: Who walks.
+        files: Those that the command has opened.
+        options: Of a file, as `formats.load_gait` takes them.
+
+    Raises:
+        DescriptionError: Options are given for a normal walk.
+        FormatError: The file cannot be read.
+        UnknownNameError: There is no such speed.
+    """
     if name in SPEEDS and not Path(name).exists():
-        if any(reading.values()):
+        if any(options.values()):
             raise DescriptionError(
                 f"{name} is a normal walk; --preset, --map, --units and --model are for files"
             )
@@ -71,11 +81,12 @@ def load(name: str, body: Body, **reading: Any) -> Gait:
         return normative_gait(name, leg_length=body.leg_length)
     if not Path(name).suffix and not Path(name).exists():
         raise UnknownNameError("gait (a file or a speed)", name, SPEEDS)
-    if trials.is_trial(Path(name)):
-        return trials.walk(Path(name))
+    files = files or OpenedFiles()
+    if trials.may_hold_markers(Path(name)) and files.open(name).needs_inverse_kinematics:
+        return files.reconstruct(name).gait
     from exo_pin.formats import load_gait
 
-    return load_gait(name, **reading)
+    return load_gait(files.open(name), **options)
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:

@@ -124,7 +124,9 @@ def _scene_options(args: argparse.Namespace, body: Body, title: str, notes: list
     return viewer.SceneOptions(
         title=f"{title} - exo_pin",
         support=args.support,
-        compare=None if args.compare is None else options.load(args.compare, body, preset=args.preset),
+        compare=None
+        if args.compare is None
+        else options.load(args.compare, body, args.files, preset=args.preset),
         compare_title=Path(args.compare or "").name,
         notes=tuple(filter(None, notes)),
         speed=args.speed,

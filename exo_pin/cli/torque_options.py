@@ -1,4 +1,4 @@
-"""Torque files on the command line: their knee's sign is that of the walk's file."""
+"""Joint torques on the command line; the sign of their knee is that of the walk's file."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def given(args: argparse.Namespace) -> Torques | None:
     """
     if args.torques is None:
         return None
-    from exo_pin.formats import load_torques
-    from exo_pin.formats.opensim.coordinates import preset_of
+    from exo_pin.formats import knee_preset, load_torques
 
-    kind = Path(args.torques).suffix.lower()
+    files, kind = args.files, Path(args.torques).suffix.lower()
+    torques = files.open(args.torques, "torques")
     if kind not in _OPENSIM:
-        return load_torques(args.torques, mass=args.mass if kind == ".c3d" else None)
-    told = args.preset
-    if told is None and Path(args.gait).suffix.lower() in _OPENSIM:
-        told = preset_of(Path(args.gait), model=Path(args.model) if args.model else None)
-    return load_torques(args.torques, preset=told)
+        return load_torques(torques, mass=args.mass if kind == ".c3d" else None)
+    preset = args.preset
+    if preset is None and Path(args.gait).suffix.lower() in _OPENSIM:
+        preset = knee_preset(files.open(args.gait), model=args.model)
+    return load_torques(torques, preset=preset)

@@ -1,17 +1,16 @@
-"""Marker trials on the command line: solved once, their body used where no measure is given."""
+"""Marker trials on the command line: their walk, and their body where no measure is given."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from exo_pin.anatomy.names import Sex
 from exo_pin.cli import plate_options
+from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import DescriptionError, FormatError
 
 if TYPE_CHECKING:
@@ -19,16 +18,17 @@ if TYPE_CHECKING:
     from exo_pin.gait import Gait
     from exo_pin.markers import Reconstruction
 
-MEASURES = ("body", "stature", "waist_width", "hip_width", "set")
-"""Options by which the user says the body's sizes."""
+_MARKER_ENDINGS = (".trc", ".c3d")
+"""Of `exo_pin.formats.MARKER_FORMATS`, which takes time to import."""
 
-FITTING = 0.03
+_FITTING = 0.03
 """Markers further from their body [m, root mean square] are doubted: OpenSim's users ask for less than 0.02,
 and the recordings at hand have 0.008 to 0.010."""
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Options of tables of other laboratories and of marker trials."""
+    """Options of tables of other laboratories and of marker trials, and the files that the command opens."""
+    parser.set_defaults(files=OpenedFiles())
     group = parser.add_argument_group("files of other laboratories")
     group.add_argument(
         "--map",
@@ -55,7 +55,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def mapping(args: argparse.Namespace) -> dict[str, str]:
-    """What `--map` says: the file's name of a column or marker -> ours.
+    """The pairs of `--map`: the file's name of a column or marker -> ours.
 
     Raises:
         DescriptionError: A word of it is not of the form NAME=NAME.
@@ -72,7 +72,7 @@ def _pair(text: str) -> tuple[str, str]:
 
 
 def opensim(args: argparse.Namespace) -> dict[str, Any]:
-    """What the user says of OpenSim's coordinates, as `load_gait` takes it."""
+    """Options of OpenSim's coordinates, as `load_gait` takes them."""
     order = None if args.pelvis_order is None else args.pelvis_order.split(",")
     return {"model": args.model, "pelvis_order": order}
 
@@ -83,31 +83,30 @@ def found(args: argparse.Namespace) -> Reconstruction | None:
     Raises:
         FormatError: The trial cannot be read, or makes no walk.
     """
-    path = Path(getattr(args, "gait", None) or "")
-    if not hasattr(args, "markers"):
+    if "files" not in args or not args.gait:
         return None
-    chosen = None if args.markers in (None, "auto") else args.markers
-    told = args.markers is not None or args.static is not None
-    if not is_trial(path, told=told):
+    path, chosen = Path(args.gait), args.markers is not None or args.static is not None
+    if not (may_hold_markers(path) and (chosen or args.files.open(path).needs_inverse_kinematics)):
         return None
-    names = tuple(mapping(args).items())
-    return _solved(path, args.static, chosen, names, args.mass, args.sex or "male")
+    files: OpenedFiles = args.files
+    return files.reconstruct(
+        path,
+        static=args.static,
+        markers=None if args.markers == "auto" else args.markers,
+        mapping=tuple(mapping(args).items()),
+        mass=args.mass,
+        sex=args.sex or "male",
+    )
 
 
-def is_trial(path: Path, *, told: bool = False) -> bool:
-    """Whether a file's walk must be made of its markers; `told`: the user wants it from those of a C3D."""
-    kind = path.suffix.lower()
-    return kind in (".trc", ".c3d") and (told or _is_markers(path))
-
-
-def walk(path: Path) -> Gait:
-    """The walk of another trial than the command's own."""
-    return _solved(path, None, None, (), None, "male").gait
+def may_hold_markers(path: Path) -> bool:
+    """Whether a file's ending is that of a marker trial."""
+    return path.suffix.lower() in _MARKER_ENDINGS
 
 
 def body(args: argparse.Namespace) -> Body | None:
     """The body that the trial was solved on, unless the user measured another."""
-    if any(getattr(args, name, None) for name in MEASURES):
+    if _measured(args):
         return None
     trial = found(args)
     return None if trial is None else trial.body
@@ -140,7 +139,7 @@ def sentence(trial: Reconstruction) -> str:
 def doubts(args: argparse.Namespace) -> tuple[str, ...]:
     """Reasons to doubt that the markers were understood; none where GAIT is no trial."""
     trial = found(args)
-    if trial is None or trial.total_rms < FITTING:
+    if trial is None or trial.total_rms < _FITTING:
         return ()
     of = trial.by_marker()
     worst = ", ".join(sorted(of, key=lambda name: -of[name])[:3])
@@ -152,11 +151,11 @@ def doubts(args: argparse.Namespace) -> tuple[str, ...]:
 
 def sized(args: argparse.Namespace) -> bool:
     """Whether lengths are the person's own: the user gave measures, or the trial's markers did."""
-    return any(getattr(args, name, None) for name in MEASURES) or found(args) is not None
+    return _measured(args) or found(args) is not None
 
 
-def facts(args: argparse.Namespace) -> dict[str, Any] | None:
-    """How well the markers are met, frame by frame and marker by marker; None where GAIT is no trial."""
+def to_json(args: argparse.Namespace) -> dict[str, Any] | None:
+    """How well the markers are met, by frame and marker, for JSON; None where GAIT is no trial."""
     trial = found(args)
     if trial is None:
         return None
@@ -171,22 +170,6 @@ def facts(args: argparse.Namespace) -> dict[str, Any] | None:
     }
 
 
-@lru_cache(maxsize=2)
-def _solved(
-    path: Path,
-    static: str | None,
-    markers: str | None,
-    names: tuple[tuple[str, str], ...],
-    mass: float | None,
-    sex: Sex,
-) -> Reconstruction:
-    from exo_pin.markers import load_walk
-
-    return load_walk(path, static=static, markers=markers, mapping=dict(names), mass=mass, sex=sex)
-
-
-@lru_cache(maxsize=2)
-def _is_markers(path: Path) -> bool:
-    from exo_pin.formats import is_markers
-
-    return is_markers(path)
+def _measured(args: argparse.Namespace) -> bool:
+    """Whether the user gave sizes of the body."""
+    return any((args.body, args.stature, args.waist_width, args.hip_width, args.set))

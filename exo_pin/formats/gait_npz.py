@@ -1,4 +1,4 @@
-"""NumPy archives (.npz): arrays time, q, joints and, where there are, base, events, periodic, source.
+"""NumPy archives (.npz) of a walk: arrays time, q, joints and, where there are, base, events, source.
 
 Nothing pickled is read, and no array is made before its size is known to be in the file.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import io
 import zipfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,16 +19,17 @@ from exo_pin import files
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
-from exo_pin.formats.reading import Reading
-from exo_pin.formats.tables.notes import MOST_EVENTS, Notes, to_gait
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.tables.metadata import MOST_EVENTS, Metadata, event_of, to_gait
+from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Event, Gait
 
-MOST_ARRAYS = 64
-LONGEST_HEADER = 4096
-"""Bytes of an array's own description; it is some eighty."""
+_MOST_ARRAYS = 64
+_LONGEST_DESCRIPTION = 4096
+"""Bytes of an array's header; it has some eighty."""
 
-KINDS = "fiubU"
-"""Numbers, truths and texts; nothing that NumPy would have to unpickle."""
+_DTYPE_KINDS = "fiubU"
+"""Numbers, booleans and texts; nothing that NumPy would have to unpickle."""
 
 
 class _Header(NamedTuple):
@@ -37,34 +39,79 @@ class _Header(NamedTuple):
     start: int
 
 
-def read_gait(path: Path, reading: Reading) -> Gait:
-    """Read a gait: `time (n,)` [s], `q (n, 12)` [rad] and `joints (12,)` names, in any order.
+@dataclass(frozen=True, eq=False)
+class ArchiveFile(TrialFile):
+    """A NumPy archive.
+
+    Attributes:
+        arrays: By name.
+    """
+
+    arrays: dict[str, NDArray[Any]]
+
+    def gait(self, options: ReadOptions) -> Gait:
+        """The walk of `time (n,)` [s], `q (n, 12)` [rad] and `joints (12,)` names, in any order.
+
+        Raises:
+            FormatError: With file and reason: arrays that are missing, or are no walk.
+        """
+        path, arrays = self.path, self.arrays
+        options.refuse(path, "preset", "mapping", "units", why="the array `joints` names them, in radians")
+        for name in ("time", "q", "joints"):
+            if name not in arrays:
+                raise FormatError(
+                    path, f"no array {name!r}; expected time [s], q (n, 12) [rad] and joints (12,)"
+                )
+        joints = [str(name) for name in arrays["joints"].ravel().tolist()[:99]]
+        q = arrays["q"]
+        if sorted(joints) != sorted(JOINTS) or q.ndim != 2 or q.shape[1] != len(joints):
+            raise FormatError(
+                path, f"q has shape {q.shape} and {len(joints)} joints; expected {', '.join(JOINTS)}"
+            )
+        q = self._numbers("q")[:, [joints.index(joint) for joint in JOINTS]]
+        base = self._numbers("base") if "base" in arrays else None
+        return to_gait(path, self._numbers("time"), q, base, self._metadata())
+
+    def _metadata(self) -> Metadata:
+        arrays, empty = self.arrays, np.empty(0)
+        source = str(arrays["source"].ravel()[0])[:10_000] if arrays.get("source", empty).size else None
+        periodic = bool(arrays["periodic"].any()) if "periodic" in arrays else False
+        return Metadata(self._events(), periodic, source)
+
+    def _numbers(self, name: str) -> Array:
+        if self.arrays[name].dtype.kind not in "fiu":
+            raise FormatError(self.path, f"array {name!r} holds no numbers")
+        return self.arrays[name].astype(np.float64)
+
+    def _events(self) -> tuple[Event, ...]:
+        names = [f"event_{part}" for part in ("time", "kind", "side", "source")]
+        if names[0] not in self.arrays:
+            return ()
+        columns = [self.arrays[name].ravel().tolist() for name in names if name in self.arrays]
+        sizes = {len(column) for column in columns}
+        if len(columns) < len(names) or len(sizes) > 1 or sizes.pop() > MOST_EVENTS:
+            raise FormatError(self.path, f"arrays {', '.join(names)} must be there together, equally long")
+        self._numbers(names[0])
+        try:
+            return tuple(
+                event_of(time, str(kind), str(side), str(source))
+                for time, kind, side, source in zip(*columns, strict=True)
+            )
+        except GaitError as error:
+            raise FormatError(self.path, str(error)) from error
+
+
+def open_archive(path: Path) -> ArchiveFile:
+    """Read a NumPy archive.
 
     Raises:
-        FormatError: With file and reason: no such archive, arrays that are missing, pickled or too large.
+        FormatError: With file and reason: no such archive, arrays that are pickled or too large.
     """
-    reading.refuse(path, "preset", "mapping", "units", why="the array `joints` names them, in radians")
-    arrays = _arrays(path)
-    for name in ("time", "q", "joints"):
-        if name not in arrays:
-            raise FormatError(path, f"no array {name!r}; expected time [s], q (n, 12) [rad] and joints (12,)")
-    joints = [str(name) for name in arrays["joints"].ravel().tolist()[:99]]
-    q = arrays["q"]
-    if sorted(joints) != sorted(JOINTS) or q.ndim != 2 or q.shape[1] != len(joints):
-        raise FormatError(
-            path, f"q has shape {q.shape} and {len(joints)} joints; expected {', '.join(JOINTS)}"
-        )
-    q = _numbers(path, arrays, "q")[:, [joints.index(joint) for joint in JOINTS]]
-    base = _numbers(path, arrays, "base") if "base" in arrays else None
-    source = str(arrays["source"].ravel()[0])[:10_000] if arrays.get("source", np.empty(0)).size else None
-    periodic = bool(arrays["periodic"].any()) if "periodic" in arrays else False
-    return to_gait(
-        path, _numbers(path, arrays, "time"), q, base, Notes(_events(path, arrays), periodic, source)
-    )
+    return ArchiveFile(path, _arrays(path))
 
 
-def write_gait(gait: Gait, path: Path) -> None:
-    """Write every number as it is: `read_gait` brings back the same bits."""
+def write_archive(gait: Gait, path: Path) -> None:
+    """Write every number as it is: reading brings back the same bits."""
     events = gait.events
     arrays: dict[str, NDArray[Any]] = {
         "time": gait.time,
@@ -98,8 +145,8 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 def _members(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     members = archive.infolist()
-    if len(members) > MOST_ARRAYS:
-        raise ValueError(f"{len(members)} arrays; at most {MOST_ARRAYS} are read")
+    if len(members) > _MOST_ARRAYS:
+        raise ValueError(f"{len(members)} arrays; at most {_MOST_ARRAYS} are read")
     if sum(info.file_size for info in members) > files.LARGEST_FILE:
         raise ValueError(f"more than {files.LARGEST_FILE // 2**20} MiB unpacked")
     return members
@@ -109,7 +156,7 @@ def _member(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> NDArray[Any]:
     with archive.open(info) as file:  # never yields more than info.file_size
         data = file.read(info.file_size)
     header = _header(data)
-    if header.dtype.kind not in KINDS:
+    if header.dtype.kind not in _DTYPE_KINDS:
         raise ValueError(
             f"array {info.filename[:40]!r} holds {header.dtype.kind!r}; pickled data are not read"
         )
@@ -127,33 +174,10 @@ def _header(data: bytes) -> _Header:
     wide = data[6] > 1
     length = int.from_bytes(data[8 : 12 if wide else 10], "little")
     start = (12 if wide else 10) + length
-    if length > LONGEST_HEADER or start > len(data):
+    if length > _LONGEST_DESCRIPTION or start > len(data):
         raise ValueError("an array's description is too long")
-    said = ast.literal_eval(data[start - length : start].decode("utf-8"))
-    shape, fortran, dtype = said["shape"], said["fortran_order"], said["descr"]
+    described = ast.literal_eval(data[start - length : start].decode("utf-8"))
+    shape, fortran, dtype = described["shape"], described["fortran_order"], described["descr"]
     if not isinstance(dtype, str) or not all(type(n) is int and 0 <= n < 2**40 for n in shape):
         raise ValueError("an array's description is malformed")
     return _Header(tuple(shape), bool(fortran), np.dtype(dtype), start)
-
-
-def _numbers(path: Path, arrays: dict[str, NDArray[Any]], name: str) -> Array:
-    if arrays[name].dtype.kind not in "fiu":
-        raise FormatError(path, f"array {name!r} holds no numbers")
-    return arrays[name].astype(np.float64)
-
-
-def _events(path: Path, arrays: dict[str, NDArray[Any]]) -> tuple[Event, ...]:
-    names = [f"event_{part}" for part in ("time", "kind", "side", "source")]
-    if names[0] not in arrays:
-        return ()
-    columns = [arrays[name].ravel().tolist() for name in names if name in arrays]
-    sizes = {len(column) for column in columns}
-    if len(columns) < len(names) or len(sizes) > 1 or sizes.pop() > MOST_EVENTS:
-        raise FormatError(path, f"arrays {', '.join(names)} must be there together, equally long")
-    _numbers(path, arrays, names[0])
-    try:
-        return tuple(
-            Event(time, str(kind), str(side), str(by)) for time, kind, side, by in zip(*columns, strict=True)
-        )
-    except GaitError as error:
-        raise FormatError(path, str(error)) from error

@@ -1,138 +1,103 @@
-"""ROS `trajectory_msgs/JointTrajectory` as YAML or JSON: what a controller takes, without ROS."""
+"""ROS `trajectory_msgs/JointTrajectory` messages as YAML or JSON, for controllers, without ROS."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.files import read_text, write_text
-from exo_pin.formats.reading import Reading
-from exo_pin.formats.tables import pelvis_notes
-from exo_pin.formats.tables.notes import Note, Notes, read, split, to_gait, to_lines
+from exo_pin.files import read_text
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.tables.metadata import (
+    Comment,
+    comments_in,
+    read_metadata,
+    read_pelvis,
+    to_gait,
+)
+from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 from exo_pin.safe.yaml_reader import load_yaml
 
-REMARK = "# JointTrajectory [rad, rad/s, rad/s^2, s]; positive is what the joint's name says."
-START = "start"
-"""Note that keeps the first time of a walk whose trajectory, as any, starts at 0; others keep the pelvis."""
+START_COMMENT = "start"
+"""Comment with the first time of a walk, whose trajectory, as any, starts at 0."""
 
-WRAPPINGS = ("trajectory", "joint_trajectory")
+_WRAPPINGS = ("trajectory", "joint_trajectory")
 """Fields under which other ROS messages hold a JointTrajectory."""
 
-NOTES = "exo_pin"
-"""Key of a JSON file that keeps the notes, which YAML has in comments."""
+COMMENTS_KEY = "exo_pin"
+"""Key of a JSON file with the comment lines, which YAML has as comments."""
 
-DEEPEST = 64
+_DEEPEST = 64
 """Brackets within brackets; a trajectory has four."""
 
 
-def read_yaml(path: Path, reading: Reading) -> Gait:
-    """Read a gait from YAML; errors as in `read_json`."""
+@dataclass(frozen=True, eq=False)
+class TrajectoryFile(TrialFile):
+    """A ROS message.
+
+    Attributes:
+        message: The parsed text.
+        comments: Comment lines with the metadata of a walk.
+    """
+
+    message: object
+    comments: list[Comment]
+
+    def gait(self, options: ReadOptions) -> Gait:
+        """The walk of `joint_names` and `points` with `positions` and `time_from_start`.
+
+        Velocities and accelerations are checked for their number and left out: a `Gait` has its own. The
+        mapping may name foreign joints; time is `sec` and `nanosec`, `secs` and `nsecs`, or a number of
+        seconds.
+
+        Raises:
+            FormatError: With file and reason: not such a message, joints missing, points that do not fit.
+            UnknownNameError: The mapping names no joint of `JOINTS`.
+        """
+        why = "a trajectory is in radians, positive as the joints' names say"
+        options.refuse(self.path, "preset", "units", why=why)
+        return _gait(self.path, _inner(self.message), self.comments, options)
+
+
+def open_yaml(path: Path) -> TrajectoryFile:
+    """Read a YAML message; raises `FormatError`."""
     text = read_text(path)
     head = [line for line in text.split("\n") if line.startswith("#")]
-    return _gait(path, load_yaml(path, text), split(head), reading)
+    return TrajectoryFile(path, load_yaml(path, text), comments_in(head))
 
 
-def read_json(path: Path, reading: Reading) -> Gait:
-    """Read a gait from JSON: `joint_names` and `points` with `positions` and `time_from_start`.
-
-    Velocities and accelerations are checked for their number and left out: a `Gait` has its own. The mapping
-    may name foreign joints; time is `sec` and `nanosec`, `secs` and `nsecs`, or a number of seconds.
-
-    Raises:
-        FormatError: With file and reason: not such a message, joints missing, points that do not fit.
-        UnknownNameError: The mapping names no joint of ours.
-    """
+def open_json(path: Path) -> TrajectoryFile:
+    """Read a JSON message; raises `FormatError`."""
     text = read_text(path)
     _check_depth(path, text)
     try:
         message = json.loads(text)
     except (ValueError, RecursionError) as error:
-        line = getattr(error, "lineno", None)
+        line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         raise FormatError(path, f"no JSON: {str(error)[:200]}", line=line) from error
-    lines = message.get(NOTES, []) if isinstance(message, dict) else []
+    lines = message.get(COMMENTS_KEY, []) if isinstance(message, dict) else []
     lines = [line for line in lines if isinstance(line, str)] if isinstance(lines, list) else []
-    return _gait(path, message, split(lines), reading)
-
-
-def write_yaml(gait: Gait, path: Path) -> None:
-    """Write positions, velocities, accelerations and times from the start; notes are comments."""
-    points = [
-        "- positions: [{}]\n  velocities: [{}]\n  accelerations: [{}]\n  time_from_start: "
-        "{{sec: {}, nanosec: {}}}".format(*(_numbers(row) for row in rows), *_stamp(t))
-        for t, *rows in zip(_from_start(gait), gait.q, gait.dq, gait.ddq, strict=True)
-    ]
-    names = "joint_names:\n" + "\n".join(f"- {joint}" for joint in JOINTS)
-    header = 'header: {stamp: {sec: 0, nanosec: 0}, frame_id: ""}'
-    write_text(path, "\n".join([REMARK, *_notes(gait), header, names, "points:", *points, ""]))
-
-
-def write_json(gait: Gait, path: Path) -> None:
-    """Write the same message as JSON; notes are under the key `exo_pin`."""
-    points = [
-        {
-            "positions": q.tolist(),
-            "velocities": dq.tolist(),
-            "accelerations": ddq.tolist(),
-            "time_from_start": dict(zip(("sec", "nanosec"), _stamp(t), strict=True)),
-        }
-        for t, q, dq, ddq in zip(_from_start(gait), gait.q, gait.dq, gait.ddq, strict=True)
-    ]
-    message = {
-        "header": {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""},
-        "joint_names": list(JOINTS),
-        "points": points,
-        NOTES: _notes(gait),
-    }
-    write_text(path, json.dumps(message) + "\n")
-
-
-def _notes(gait: Gait) -> list[str]:
-    start = float(gait.time[0])
-    notes = to_lines(Notes(gait.events, gait.periodic, gait.source))
-    return [*notes, f"# {START}: {start!r}", *pelvis_notes.to_lines(gait.base)]
-
-
-def _from_start(gait: Gait) -> list[float]:
-    return list((gait.time - gait.time[0]).tolist())
-
-
-def _stamp(seconds: float) -> tuple[int, int]:
-    return divmod(round(seconds * 1e9), 10**9)
-
-
-def _numbers(row: Array) -> str:
-    return ", ".join(map(_yaml_float, row.tolist()))
-
-
-def _yaml_float(x: float) -> str:
-    """As YAML 1.1 reads it: 1e-05 without a point would be a text."""
-    text = repr(x)
-    return text.replace("e", ".0e") if "e" in text and "." not in text else text
+    return TrajectoryFile(path, message, comments_in(lines))
 
 
 def _check_depth(path: Path, text: str) -> None:
     depth = 0
     for mark in text:
         depth += (mark in "[{") - (mark in "]}")
-        if depth > DEEPEST:
-            raise FormatError(path, f"brackets more than {DEEPEST} deep; a trajectory has four")
+        if depth > _DEEPEST:
+            raise FormatError(path, f"brackets more than {_DEEPEST} deep; a trajectory has four")
 
 
-def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> Gait:
-    reading.refuse(
-        path, "preset", "units", why="a trajectory is in radians, positive as the joints' names say"
-    )
-    message = _inner(message)
+def _gait(path: Path, message: object, comments: list[Comment], options: ReadOptions) -> Gait:
     if not isinstance(message, dict) or not {"joint_names", "points"} <= set(message):
         raise FormatError(path, "no JointTrajectory; expected the keys joint_names and points")
-    columns = _columns(path, message["joint_names"], reading)
+    columns = _columns(path, message["joint_names"], options)
     points = message["points"]
     if not isinstance(points, list) or len(points) < 2:
         raise FormatError(path, "points must be a list of at least 2")
@@ -142,32 +107,36 @@ def _gait(path: Path, message: object, notes: list[Note], reading: Reading) -> G
         for name in ("velocities", "accelerations"):
             if point.get(name):
                 _row(path, i, point, name, k)
-    time = np.array([_seconds(path, i, point) for i, point in enumerate(points)])
-    start = [note for note in notes if note.key == START]
+    time = np.array([_seconds(path, i, point) for i, point in enumerate(points)]) + _start(path, comments)
+    base = read_pelvis(path, comments, len(time))
+    return to_gait(path, time, q[:, columns], base, read_metadata(path, comments))
+
+
+def _start(path: Path, comments: list[Comment]) -> float:
+    """First time of the walk [s]."""
+    start = next((comment.value for comment in comments if comment.key == START_COMMENT), "0")
     try:
-        time += float(start[0].value) if start else 0.0
+        return float(start)
     except ValueError:
-        raise FormatError(path, f"start is {start[0].value[:40]!r}, expected seconds") from None
-    base = pelvis_notes.read_base(path, notes, len(time))
-    return to_gait(path, time, q[:, columns], base, read(path, notes))
+        raise FormatError(path, f"start is {start[:40]!r}, expected seconds") from None
 
 
 def _inner(message: object) -> object:
     """The JointTrajectory inside a goal of FollowJointTrajectory or a RobotTrajectory, or what was given."""
-    for key in ("goal", *WRAPPINGS):
+    for key in ("goal", *_WRAPPINGS):
         if isinstance(message, dict) and isinstance(message.get(key), dict):
             message = message[key]
     return message
 
 
-def _columns(path: Path, names: object, reading: Reading) -> list[int]:
+def _columns(path: Path, names: object, options: ReadOptions) -> list[int]:
     """Where each of our joints stands in the message."""
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise FormatError(path, "joint_names must be a list of names")
-    for joint in reading.mapping.values():
+    for joint in options.mapping.values():
         if joint not in JOINTS:
             raise UnknownNameError("joint", joint, JOINTS)
-    ours = [reading.mapping.get(name, name) for name in names]
+    ours = [options.mapping.get(name, name) for name in names]
     gone = [joint for joint in JOINTS if ours.count(joint) != 1]
     if gone:
         found = ", ".join(names[:12])[:300]

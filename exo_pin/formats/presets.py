@@ -1,4 +1,4 @@
-"""Sign conventions of laboratories and model families: one entry in PRESETS each."""
+"""Presets: column names and sign conventions of laboratories and model families."""
 
 from __future__ import annotations
 
@@ -8,33 +8,33 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
-from exo_pin.anatomy.names import Movement, Side
+from exo_pin.anatomy.names import Movement, Side, SignPreset
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
-ONE_SIDED = 0.9
-"""Part of the knee's excursion that must lie on one side of 0 before its sign is believed."""
+_ONE_SIDED = 0.9
+"""Part of the knee's excursion that must lie on one side of 0 before its sign is taken from it."""
 
-BENT = np.radians(15)
+_LEAST_FLEXION = np.radians(15)
 """A walk bends the knee more than this; smaller angles could be flexion or hyperextension [rad]."""
 
 Point = tuple[float, float, float]
 
 
 class Preset(NamedTuple):
-    """What must be known of a laboratory or a model to read its angles.
+    """Column names and signs of joint angles.
 
     Attributes:
-        name: What the user calls it.
+        name: Its name in `--preset`.
         columns: Per movement, what a side's column is called: `{s}` stands for l or r, `{S}` for L or R,
             `{side}` for left or right.
         signs: Per movement, +1 where positive is what our name says, else -1.
         mid_hip: OpenSim models: midway between the hip centres in the pelvis's own frame, OpenSim axes [m]:
             the generic model's, because a file of coordinates does not carry the scaled one.
-        source: Who says so.
+        source: Where the convention comes from.
     """
 
-    name: str
+    name: SignPreset
     columns: tuple[str, ...]
     signs: tuple[int, ...]
     mid_hip: Point | None
@@ -109,18 +109,24 @@ PRESETS = MappingProxyType(
 )
 """Name -> preset."""
 
-OPENSIM = tuple(name for name, entry in PRESETS.items() if entry.mid_hip is not None)
+OPENSIM_PRESETS = tuple(name for name, entry in PRESETS.items() if entry.mid_hip is not None)
 """The presets of OpenSim's models."""
 
 
-def preset(name: str, known: tuple[str, ...] = tuple(PRESETS)) -> Preset:
+def find_preset(name: str, known: tuple[str, ...] = tuple(PRESETS)) -> Preset:
     """The preset of that name; raises `UnknownNameError`."""
-    if name not in known:
+    entry = next((entry for entry in PRESETS.values() if entry.name == name), None)
+    if entry is None or name not in known:
         raise UnknownNameError("preset", name, known)
-    return PRESETS[name]
+    return entry
 
 
-def inferred(knees: Array) -> tuple[Preset, float] | None:
+def preset_of_knee(sign: int) -> Preset:
+    """The OpenSim preset whose knee is positive in flexion (sign +1) or in extension (-1)."""
+    return next(PRESETS[name] for name in OPENSIM_PRESETS if PRESETS[name].knee == sign)
+
+
+def inferred_preset(knees: Array) -> tuple[Preset, float] | None:
     """Find the OpenSim preset whose knee sign makes `(n, 2)` knee angles [rad] those of a walk.
 
     Returns:
@@ -128,7 +134,6 @@ def inferred(knees: Array) -> tuple[Preset, float] | None:
         than 90 % on one side, or knees that never bend 15 degrees.
     """
     up, down = max(float(knees.max()), 0.0), max(float(-knees.min()), 0.0)
-    if max(up, down) < BENT or max(up, down) < ONE_SIDED * (up + down):
+    if max(up, down) < _LEAST_FLEXION or max(up, down) < _ONE_SIDED * (up + down):
         return None
-    sign = 1 if up > down else -1
-    return next(PRESETS[name] for name in OPENSIM if PRESETS[name].knee == sign), max(up, down) / (up + down)
+    return preset_of_knee(1 if up > down else -1), max(up, down) / (up + down)

@@ -1,9 +1,10 @@
-"""Marker files of Motion Analysis and OpenSim (.trc)."""
+"""Marker trials of Motion Analysis and OpenSim (.trc)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
@@ -12,53 +13,78 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_lines
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.trial_file import TrialFile
+from exo_pin.formats.units import METRES_PER
+from exo_pin.gait import Gait
 from exo_pin.gait.trial import Markers, unique
 
-METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-METRES |= {"millimeters": 1e-3, "centimeters": 1e-2, "meters": 1.0, "millimetres": 1e-3, "metres": 1.0}
-"""Units of length a file may state."""
-
-MOST_NUMBERS = 30_000_000
+_MOST_NUMBERS = 30_000_000
 """Cells: an hour of forty markers at 60 Hz; bounds memory."""
 
-KEYS = 3
-"""Lines above the names of the markers."""
+_HEADER_LINES = 3
+"""Above the names of the markers."""
 
 
-def read_markers(path: Path) -> Markers:
-    """Read a .trc file. What the header says must be true.
+@dataclass(frozen=True, eq=False)
+class TrcFile(TrialFile):
+    """A .trc file.
+
+    Attributes:
+        trial: Its markers.
+    """
+
+    trial: Markers
+
+    @property
+    def needs_inverse_kinematics(self) -> bool:
+        """Always: it holds markers only."""
+        return True
+
+    def gait(self, options: ReadOptions) -> Gait:
+        """Raises `FormatError`: there are no joint angles."""
+        why = "holds markers, not angles; exo_pin.markers.load_walk makes a walk of them"
+        raise FormatError(self.path, why)
+
+    def markers(self) -> Markers:
+        """The marker trial."""
+        return self.trial
+
+
+def open_trc(path: Path) -> TrcFile:
+    """Read a .trc file. What the header states must be true.
 
     A marker whose cells are empty, NaN or all three exactly 0 was not seen. Decimals may have a comma.
 
-    The format does not say which axis is up.
+    The format does not state which axis is up.
 
     Raises:
         FormatError: With file, line and reason.
     """
     lines = read_lines(path)
-    if not lines[0].startswith("PathFileType") or len(lines) < KEYS + 3:
+    if not lines[0].startswith("PathFileType") or len(lines) < _HEADER_LINES + 3:
         raise FormatError(
             path, "the first line is not 'PathFileType ...'; expected a .trc marker file", line=1
         )
-    said = _keys(path, lines)
-    names = _names(path, lines[KEYS], said)
+    header = _header(path, lines)
+    names = _names(path, lines[_HEADER_LINES], header)
     places = unique(names)
-    values, first = _values(path, lines, len(names)), KEYS + 3
-    stated = said.get("numframes", "")
+    values, first = _values(path, lines, len(names)), _HEADER_LINES + 3
+    stated = header.get("numframes", "")
     if re.fullmatch(r"\d{1,15}", stated) and int(stated) != len(values):
         raise FormatError(path, f"header says {stated} frames, the file has {len(values)}; cut short?")
-    scale = METRES[_unit(path, said)]
+    scale = METRES_PER[_unit(path, header)]
     position = values[:, 2:].reshape(len(values), len(names), 3)[:, list(places.values())] * scale
     position = np.where((position == 0).all(axis=2, keepdims=True), np.nan, position)
     if np.isnan(values[:, 1]).any():
         raise FormatError(path, "a frame without a time", line=first)
     try:
-        return Markers(values[:, 1], tuple(places), position, source=path.name)
+        return TrcFile(path, Markers(values[:, 1], tuple(places), position, source=path.name))
     except GaitError as error:
         raise FormatError(path, str(error)) from error
 
 
-def _keys(path: Path, lines: Sequence[str]) -> dict[str, str]:
+def _header(path: Path, lines: Sequence[str]) -> dict[str, str]:
     keys, values = lines[1].split("\t"), lines[2].split("\t")
     if len(keys) < 5 or len(values) < 5:
         raise FormatError(
@@ -67,36 +93,40 @@ def _keys(path: Path, lines: Sequence[str]) -> dict[str, str]:
     return {key.strip().lower(): value.strip() for key, value in zip(keys, values, strict=False)}
 
 
-def _unit(path: Path, said: dict[str, str]) -> str:
-    unit = said.get("units", "").lower()
-    if unit not in METRES:
+def _unit(path: Path, header: dict[str, str]) -> str:
+    unit = header.get("units", "").lower()
+    if unit not in METRES_PER:
         raise FormatError(path, f"Units is {unit[:20]!r}; mm, cm and m are accepted", line=3)
     return unit
 
 
-def _names(path: Path, line: str, said: dict[str, str]) -> list[str]:
+def _names(path: Path, line: str, header: dict[str, str]) -> list[str]:
     """Names of the markers, each over three columns."""
     cells = line.rstrip().split("\t")
     if len(cells) < 3 or cells[1].strip().lower() != "time":
-        raise FormatError(path, "expected Frame#, Time and the markers' names", line=KEYS + 1)
+        raise FormatError(path, "expected Frame#, Time and the markers' names", line=_HEADER_LINES + 1)
     names = [cell.strip() for cell in cells[2::3]]
-    stated = said.get("nummarkers", "")
+    stated = header.get("nummarkers", "")
     if re.fullmatch(r"\d{1,9}", stated) and 0 < int(stated) < len(names):
         names = names[: int(stated)]  # some programs leave more names than columns
     if stated != str(len(names)):
         why = f"header says {stated[:20]} markers, the line of names has {len(names)}"
-        raise FormatError(path, why, line=KEYS + 1)
+        raise FormatError(path, why, line=_HEADER_LINES + 1)
     return names
 
 
 def _values(path: Path, lines: Sequence[str], k: int) -> Array:
     """`(n, 2 + 3 k)` frame, time and coordinates; NaN where a cell is empty or missing at the end."""
-    rows = [(number, line) for number, line in enumerate(lines[KEYS + 2 :], KEYS + 3) if line.strip()]
+    rows = [
+        (number, line)
+        for number, line in enumerate(lines[_HEADER_LINES + 2 :], _HEADER_LINES + 3)
+        if line.strip()
+    ]
     width = 2 + 3 * k
     if not rows:
         raise FormatError(path, "no frames below the header")
-    if len(rows) * width > MOST_NUMBERS:
-        raise FormatError(path, f"more than {MOST_NUMBERS} numbers; split the trial")
+    if len(rows) * width > _MOST_NUMBERS:
+        raise FormatError(path, f"more than {_MOST_NUMBERS} numbers; split the trial")
     values = np.full((len(rows), width), np.nan)
     for i, (number, line) in enumerate(rows):
         cells = line.rstrip("\t ").replace(",", ".").split("\t")

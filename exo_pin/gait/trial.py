@@ -1,22 +1,24 @@
-"""A motion-capture trial: markers, model angles, events and force plates."""
+"""Records of a motion-capture trial: markers, model angles, events and force plates."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from exo_pin.anatomy.names import Vertical
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_time, frozen
 
-UP_AXES = ("+x", "+y", "+z", "-x", "-y", "-z")
-"""Vertical axes of laboratories."""
+UP_AXES: tuple[Vertical, ...] = ("+x", "+y", "+z", "-x", "-y", "-z")
+"""Axes that can be the vertical of a laboratory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +40,13 @@ class ForcePlate:
     moment: Array
 
     def __post_init__(self) -> None:
-        for name in ("time", "force", "point", "moment"):
-            set_fields(self, **{name: frozen(getattr(self, name), f"{self.name}: {name}")})
-        for name in ("force", "point", "moment"):
-            if getattr(self, name).shape != (len(self.time), 3):
-                raise GaitError(f"{self.name}: {name} has shape {getattr(self, name).shape}, expected (m, 3)")
+        vectors = {"force": self.force, "point": self.point, "moment": self.moment}
+        set_fields(self, time=frozen(self.time, f"{self.name}: time"))
+        for name, values in vectors.items():
+            kept = frozen(values, f"{self.name}: {name}")
+            if kept.shape != (len(self.time), 3):
+                raise GaitError(f"{self.name}: {name} has shape {kept.shape}, expected (m, 3)")
+            set_fields(self, **{name: kept})
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +57,9 @@ class Markers:
         time: `(n,)` strictly increasing [s]; the first frame need not be at 0.
         names: The k markers.
         position: `(n, k, 3)` [m]; NaN where a marker was not seen.
-        up: Which of the laboratory's axes points up, one of `UP_AXES`, or "" where the file does not say.
+        up: Which of the laboratory's axes points up, or "" where the file does not state it.
         angles: Model angles by the file's names, `(n, 3)` [rad] each; NaN where there are none.
-        events: Foot contacts that the file states.
+        events: Foot contacts in the file.
         plates: Force plates.
         source: Where the numbers come from, in words.
 
@@ -66,16 +70,21 @@ class Markers:
     time: Array
     names: tuple[str, ...]
     position: Array
-    up: str = ""
+    up: Vertical | Literal[""] = ""
     angles: Mapping[str, Array] = field(default_factory=dict)
     events: tuple[Event, ...] = ()
     plates: tuple[ForcePlate, ...] = ()
     source: str = ""
 
     def __post_init__(self) -> None:
-        set_fields(self, time=frozen(self.time, "time"), names=tuple(self.names))
+        set_fields(
+            self,
+            time=frozen(self.time, "time"),
+            names=tuple(self.names),
+            position=frozen(self.position, "position"),
+            angles=MappingProxyType({name: frozen(values, name) for name, values in self.angles.items()}),
+        )
         check_time(self.time, periodic=False)
-        set_fields(self, position=frozen(self.position, "position"))
         n, k = len(self.time), len(self.names)
         if self.position.shape != (n, k, 3):
             raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")
@@ -85,7 +94,6 @@ class Markers:
             raise GaitError("a marker is at infinity; expected metres, or NaN where it was not seen")
         if self.up not in ("", *UP_AXES):
             raise UnknownNameError("axis", self.up, UP_AXES)
-        set_fields(self, angles=MappingProxyType({k: frozen(v, k) for k, v in self.angles.items()}))
         for name, values in self.angles.items():
             if values.shape != (n, 3):
                 raise GaitError(f"{name} has shape {values.shape}, expected ({n}, 3)")
@@ -128,7 +136,7 @@ class Markers:
         return Markers(self.time, self.names, position, "+z", self.angles, self.events, plates, self.source)
 
 
-def to_z_up(up: str) -> Array:
+def to_z_up(up: Vertical) -> Array:
     """`(3, 3)` the rotation that carries a laboratory's axes to ones with z up, x staying where it can.
 
     Raises:
@@ -140,6 +148,14 @@ def to_z_up(up: str) -> Array:
     axis["xyz".index(up[1])] = 1.0 if up[0] == "+" else -1.0
     forward = np.array([0.0, 1.0, 0.0]) if up[1] == "x" else np.array([1.0, 0.0, 0.0])
     return np.stack([forward, np.cross(axis, forward), axis])
+
+
+def vertical_along(direction: Array) -> Vertical | None:
+    """The axis of the laboratory along which `(3,)` lies within some 27 degrees, or None."""
+    k = int(np.abs(direction).argmax())
+    if not abs(direction[k]) > 2 * np.linalg.norm(np.delete(direction, k)):
+        return None
+    return UP_AXES[k if direction[k] > 0 else k + 3]
 
 
 def unique(names: Iterable[str]) -> dict[str, int]:

@@ -6,8 +6,8 @@ from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
-from exo_pin.kinematics.plate_contacts import plate_events, spatiotemporal, with_plates
-from exo_pin.kinematics.walk_numbers import WalkNumbers, walk_numbers
+from exo_pin.kinematics.plate_contacts import plate_events, with_plates
+from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
 
 __all__ = [
     "CenterOfMass",

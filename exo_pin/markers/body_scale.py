@@ -1,4 +1,4 @@
-"""The body of a marker trial: sizes from the markers' distances, and where each marker sits on it."""
+"""Sizes of the body of a marker trial, from distances between its markers."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
-from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.markers.marker_sets import MarkerSet
+from exo_pin.markers.rigid_fit import rigid_fit
 
-THIGH = 0.245 / (0.245 + 0.246)
+_THIGH_PART = 0.245 / (0.245 + 0.246)
 """Thigh in hip to ankle, Drillis & Contini 1966 (in Winter)."""
 
-LEG = 0.245 + 0.246
+_LEG_PART = 0.245 + 0.246
 """Hip to ankle / stature, the same."""
 
-MARKER_RADIUS = 0.007
+_MARKER_RADIUS = 0.007
 """Of a usual marker [m]: what Davis's regression takes off."""
 
-SOLE = (0.03, 0.15)
+_ANKLE_HEIGHTS = (0.03, 0.15)
 """Plausible heights of the ankle over the ground [m]; outside, the laboratory's floor is not at 0."""
 
 
 class Sizes(NamedTuple):
-    """What is known of a body from its markers [m].
+    """Sizes of a body by its markers [m].
 
     Attributes:
         hip_width: Between the hip centres.
@@ -44,14 +44,6 @@ class Sizes(NamedTuple):
     thigh: float
     foot: tuple[float, float]
     ankle: float | None
-
-
-class Placement(NamedTuple):
-    """Where markers sit on the links [m]: link -> names, and their places `(k, 3)`."""
-
-    names: dict[str, tuple[str, ...]]
-    local: dict[str, Array]
-    spread: dict[str, Array]
 
 
 def first_sizes(chosen: MarkerSet, paths: Mapping[str, Array]) -> tuple[Sizes, Array]:
@@ -84,8 +76,8 @@ def first_sizes(chosen: MarkerSet, paths: Mapping[str, Array]) -> tuple[Sizes, A
         legs.append(float(np.nanpercentile(np.linalg.norm(hip - ankle, axis=1), 98)))
         heights.append(float(np.nanpercentile(ankle[:, 2], 5)))
     height = float(np.mean(heights))
-    floor = height if SOLE[0] < height < SOLE[1] else None
-    return Sizes(hips.width, (legs[0], legs[1]), THIGH, (feet[0], feet[1]), floor), _stack(pelvis)
+    floor = height if _ANKLE_HEIGHTS[0] < height < _ANKLE_HEIGHTS[1] else None
+    return Sizes(hips.width, (legs[0], legs[1]), _THIGH_PART, (feet[0], feet[1]), floor), _stack(pelvis)
 
 
 class _Hips(NamedTuple):
@@ -103,7 +95,7 @@ def _hips(chosen: MarkerSet, paths: Mapping[str, Array], asis: float) -> _Hips:
     sides = [S for S in "LR" if f"{S}KNE" in paths and f"{S}ANK" in paths]
     leg = float(np.mean([sum(_distance(paths, f"{S}{a}", f"{S}{b}") for a, b in parts) for S in sides]))
     C, theta, beta = 0.115 * leg - 0.0153, 0.5, 0.314
-    trochanter = 0.1288 * leg - 0.04856 + MARKER_RADIUS
+    trochanter = 0.1288 * leg - 0.04856 + _MARKER_RADIUS
     x = C * np.cos(theta) * np.sin(beta) - trochanter * np.cos(beta)
     z = -C * np.cos(theta) * np.cos(beta) - trochanter * np.sin(beta)
     return _Hips(asis - 2 * C * np.sin(theta), np.array([x, 0.0, z]))
@@ -136,7 +128,7 @@ def _distance(paths: Mapping[str, Array], a: str, b: str) -> float:
 
 
 def _ankle(places: Mapping[str, Array], paths: Mapping[str, Array]) -> Array:
-    """`(n, 3)` ankle centre: the foot's markers tell its place, up to the roll about heel and toe."""
+    """`(n, 3)` ankle centre: by the foot's markers, up to the roll about heel and toe."""
     if len(places) >= 3:
         return np.asarray(rigid_fit(places, paths)[:, :3, 3])
     (heel, toe), (p, q) = places.values(), (paths[name] for name in places)
@@ -151,34 +143,19 @@ def _ankle(places: Mapping[str, Array], paths: Mapping[str, Array]) -> Array:
     return np.asarray(p - np.einsum("nij,kj,k->ni", axes, own_axes.T, heel))
 
 
-def rigid_fit(places: Mapping[str, Array], paths: Mapping[str, Array]) -> Array:
-    """`(n, 4, 4)` poses that bring the places nearest to the paths (Kabsch); NaN where not all are seen."""
-    local = np.array(list(places.values()))
-    seen = np.stack([paths[name] for name in places], axis=1)
-    out = np.full((len(seen), 4, 4), np.nan)
-    good = ~np.isnan(seen).any(axis=(1, 2))
-    if len(local) < 3 or not good.any():
-        return out
-    centre, target = local.mean(axis=0), seen[good].mean(axis=1)
-    H = np.einsum("nki,kj->nij", seen[good] - target[:, None], local - centre)
-    T = np.tile(np.eye(4), (int(good.sum()), 1, 1))
-    U, _, Vt = np.linalg.svd(H)
-    flip = np.linalg.det(U @ Vt)
-    U[:, :, 2] *= flip[:, None]
-    T[:, :3, :3] = U @ Vt
-    T = nearest_pose(T)
-    T[:, :3, 3] = target - T[:, :3, :3] @ centre
-    out[good] = T
-    return out
-
-
 def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: Sex) -> Body:
-    """The body with these sizes; what markers do not tell follows from the stature they suggest.
+    """The body with these sizes; all others follow from the stature by the length of the legs.
+
+    Args:
+        sizes: By markers.
+        chosen: The marker set.
+        mass: Of the person [kg]; None: by stature.
+        sex: Whose segment masses.
 
     Raises:
-        GaitError: The sizes are nobody's: wrong units or wrong markers.
+        GaitError: No person has such sizes: wrong units or wrong markers.
     """
-    stature = float(np.mean(sizes.leg)) / LEG
+    stature = float(np.mean(sizes.leg)) / _LEG_PART
     measures = {"hip_width": sizes.hip_width}
     for k, side in enumerate(SIDES):
         measures[f"{side}_thigh"] = sizes.leg[k] * sizes.thigh
@@ -191,23 +168,4 @@ def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: Sex) ->
         rounded = {name: round(value, 6) for name, value in measures.items()}
         return Body.from_stature(round(stature, 4), mass=weight, sex=sex, **rounded)
     except DescriptionError as error:
-        raise GaitError(f"the markers are nobody's: {error}") from error
-
-
-def placement(chosen: MarkerSet, sizes: Sizes, pelvis: Array, names: Mapping[str, Array]) -> Placement:
-    """The set's places on a body of these sizes."""
-    lengths = {"thigh": sizes.thigh, "shank": 1 - sizes.thigh}
-    rows: dict[str, list[tuple[str, Array, float]]] = {}
-    for name, (link, spot) in chosen.spots().items():
-        if name not in names:
-            continue
-        k = 0 if link.startswith("left") else 1
-        scale = sizes.foot[k] if spot.segment == "foot" else sizes.leg[k] * lengths.get(spot.segment, 0.0)
-        rows.setdefault(link, []).append((name, np.array(spot.place) * scale, spot.spread))
-    local = {link: np.array([place for _, place, _ in row]) for link, row in rows.items()}
-    local["pelvis"] = pelvis
-    return Placement(
-        {link: tuple(name for name, _, _ in row) for link, row in rows.items()},
-        local,
-        {link: np.array([spread for *_, spread in row]) for link, row in rows.items()},
-    )
+        raise GaitError(f"the markers are no person's: {error}") from error

@@ -1,4 +1,4 @@
-"""The fit behind a reconstruction: markers to poses, and sizes and markers' places learnt from the poses."""
+"""Least-squares fit of a body to markers: poses, and calibration of segment lengths and marker places."""
 
 from __future__ import annotations
 
@@ -14,47 +14,49 @@ from exo_pin.anatomy.human import EXTREME_RANGES
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.kinematics import poses
-from exo_pin.markers.body_scale import Placement, Sizes, body_of, placement, rigid_fit
+from exo_pin.markers.body_scale import Sizes, body_of
+from exo_pin.markers.marker_places import MarkerPlaces, marker_places
 from exo_pin.markers.marker_sets import MarkerSet
+from exo_pin.markers.rigid_fit import rigid_fit
 from exo_pin.robot import Robot, load_robot
 
-ROUNDS = 2
-"""Times that sizes and places are learnt from the poses and the poses solved again."""
+_ROUNDS = 2
+"""Times that sizes and places are calibrated by the poses and the poses solved again."""
 
-SAMPLES = 16
-"""Frames that are learnt from: evenly over the trial."""
+_SAMPLES = 16
+"""Frames of the calibration, evenly over the trial."""
 
-TRUST = 0.010
+_MEASURED_SPREAD = 0.010
 """How well a marker's mean place in the solved poses is known [m]; weighs it against the set's place."""
 
-STEP = 0.02
+_LENGTH_STEP = 0.02
 """Relative change of a length that is tried."""
 
-BENT = 0.2
+_KNEE_SEED = 0.2
 """Knees at the start of the search [rad]: a straight leg hides which way it bends."""
 
-FAR = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=12)
+_FROM_SEED = ik.Dls(tolerance=1e-6, restarts=0, max_iterations=12)
 """Markers are never met exactly: no restarts, and an end. On recordings 8 steps leave 1e-12 m of the RMS."""
 
-NEAR = dataclasses.replace(FAR, max_iterations=6)
+_FROM_NEIGHBOUR = dataclasses.replace(_FROM_SEED, max_iterations=6)
 """The same where the answer for all but the same body is known."""
 
 
 @dataclass(frozen=True)
-class Model:
-    """What was learnt: the body's sizes, where the markers sit on it, and the robot of these sizes."""
+class CalibratedBody:
+    """A calibrated body: its sizes, where the markers sit on it, and the robot of these sizes."""
 
     sizes: Sizes
-    places: Placement
+    places: MarkerPlaces
     robot: Robot
 
 
-def few(path: Array) -> Array:
-    """`(SAMPLES, 3)` of a path, evenly over the trial."""
-    return np.asarray(path[np.unique(np.linspace(0, len(path) - 1, SAMPLES).astype(int))])
+def some_frames(path: Array) -> Array:
+    """`(_SAMPLES, 3)` of a path, evenly over the trial."""
+    return np.asarray(path[np.unique(np.linspace(0, len(path) - 1, _SAMPLES).astype(int))])
 
 
-def human(chosen: MarkerSet, sizes: Sizes) -> Robot:
+def human_robot(chosen: MarkerSet, sizes: Sizes) -> Robot:
     """A robot of these sizes that floats, with a person's extreme joint ranges: no device limits a trial."""
     body = body_of(sizes, chosen, mass=None, sex="male")  # masses do not move a marker
     return load_robot(dataclasses.replace(body, limits=EXTREME_RANGES), base="floating")
@@ -63,7 +65,7 @@ def human(chosen: MarkerSet, sizes: Sizes) -> Robot:
 def resized(robot: Robot, sizes: Sizes) -> Robot:
     """The robot with other lengths of thigh and shank: knee and ankle are moved, masses stay behind.
 
-    Building a robot anew takes 0.3 s, and learning tries a dozen; where its links are is all that they need.
+    Building a robot anew takes 0.3 s, and calibration tries a dozen; it needs the places of the links only.
     """
     model = robot.model.copy()
     for k, side in enumerate(SIDES):
@@ -73,30 +75,40 @@ def resized(robot: Robot, sizes: Sizes) -> Robot:
     return dataclasses.replace(robot, model=model, body=None)
 
 
-def learnt(chosen: MarkerSet, sizes: Sizes, pelvis: Array, paths: dict[str, Array]) -> Model:
-    """Sizes and places that fit the markers best, starting from the set's."""
-    robot = human(chosen, sizes)
-    places, q = placement(chosen, sizes, pelvis, paths), None
-    for _ in range(ROUNDS):
+def calibrated(chosen: MarkerSet, sizes: Sizes, pelvis: Array, paths: dict[str, Array]) -> CalibratedBody:
+    """Sizes and places that fit the markers best, starting from the set's.
+
+    Args:
+        chosen: The marker set.
+        sizes: First estimate.
+        pelvis: `(k, 3)` places of the pelvis's markers [m].
+        paths: Marker -> `(n, 3)` path [m], of some frames.
+
+    Raises:
+        GaitError: The pelvis's markers are never seen together.
+    """
+    robot = human_robot(chosen, sizes)
+    places, q = marker_places(chosen, sizes, pelvis, paths), None
+    for _ in range(_ROUNDS):
         for name in ("leg", "thigh"):
-            q, _, _ = solved(resized(robot, sizes), places, paths, q)
-            sizes = _better(robot, sizes, places, paths, name, q)
-        nominal = placement(chosen, sizes, pelvis, paths)
-        places = _moved(resized(robot, sizes), nominal, places, paths, q)
-    return Model(sizes, places, resized(robot, sizes))
+            q, _, _ = fit_poses(resized(robot, sizes), places, paths, q)
+            sizes = _refined(robot, sizes, places, paths, name, q)
+        nominal = marker_places(chosen, sizes, pelvis, paths)
+        places = _measured_places(resized(robot, sizes), nominal, places, paths, q)
+    return CalibratedBody(sizes, places, resized(robot, sizes))
 
 
-def _better(
-    robot: Robot, sizes: Sizes, places: Placement, paths: dict[str, Array], name: str, q: Array | None
+def _refined(
+    robot: Robot, sizes: Sizes, places: MarkerPlaces, paths: dict[str, Array], name: str, q: Array | None
 ) -> Sizes:
     """The size at the vertex of the parabola through the errors at three sizes."""
-    factors = (1 - STEP, 1.0, 1 + STEP)
+    factors = (1 - _LENGTH_STEP, 1.0, 1 + _LENGTH_STEP)
     tried = [_scaled(sizes, name, factor) for factor in factors]
-    cost = [float(np.nanmean(solved(resized(robot, s), places, paths, q)[1] ** 2)) for s in tried]
-    bend = cost[0] - 2 * cost[1] + cost[2]
-    if bend <= 0:
+    cost = [float(np.nanmean(fit_poses(resized(robot, s), places, paths, q)[1] ** 2)) for s in tried]
+    curvature = cost[0] - 2 * cost[1] + cost[2]
+    if curvature <= 0:
         return tried[int(np.argmin(cost))]
-    vertex = 1 + STEP * float(np.clip(0.5 * (cost[0] - cost[2]) / bend, -1.5, 1.5))
+    vertex = 1 + _LENGTH_STEP * float(np.clip(0.5 * (cost[0] - cost[2]) / curvature, -1.5, 1.5))
     return _scaled(sizes, name, vertex)
 
 
@@ -106,32 +118,45 @@ def _scaled(sizes: Sizes, name: str, factor: float) -> Sizes:
     return sizes._replace(thigh=sizes.thigh * factor)
 
 
-def _moved(
-    robot: Robot, nominal: Placement, places: Placement, paths: dict[str, Array], q: Array | None
-) -> Placement:
+def _measured_places(
+    robot: Robot, nominal: MarkerPlaces, places: MarkerPlaces, paths: dict[str, Array], q: Array | None
+) -> MarkerPlaces:
     """Each marker's place: where it is in the solved poses, weighed against where the set has it."""
-    q, _, _ = solved(robot, places, paths, q)
+    q, _, _ = fit_poses(robot, places, paths, q)
     links = list(places.names)
     T = poses(robot, q, links)
     local = {}
     for i, link in enumerate(links):
         seen = np.stack([paths[name] for name in places.names[link]], axis=1) - T[:, i, None, :3, 3]
         mean = np.nanmean(np.einsum("nji,nkj->nki", T[:, i, :3, :3], seen), axis=0)
-        weight = nominal.spread[link] ** 2 / (nominal.spread[link] ** 2 + TRUST**2)
+        weight = nominal.spread[link] ** 2 / (nominal.spread[link] ** 2 + _MEASURED_SPREAD**2)
         if link == "pelvis":
             weight = np.zeros_like(weight)  # the pelvis's own triangle is the frame of everything else
         local[link] = nominal.local[link] + weight[:, None] * (mean - nominal.local[link])
     return places._replace(local=local)
 
 
-def solved(
-    robot: Robot, places: Placement, paths: Mapping[str, Array], q0: Array | None = None
+def fit_poses(
+    robot: Robot, places: MarkerPlaces, paths: Mapping[str, Array], q0: Array | None = None
 ) -> tuple[Array, Array, tuple[str, ...]]:
-    """Configurations `(n, nq)`, errors `(n, k)` [m] and the k names; q0 is near the answer, if known."""
+    """The robot's poses that fit the markers best.
+
+    Args:
+        robot: The robot, with a floating base.
+        places: Where markers sit on its links.
+        paths: Marker -> `(n, 3)` path [m].
+        q0: `(n, nq)` near the solution, if known.
+
+    Returns:
+        Configurations `(n, nq)`, errors `(n, k)` [m] and names of the k markers.
+
+    Raises:
+        GaitError: The pelvis's markers are never seen together.
+    """
     links = list(places.names)
     points = {link: np.stack([paths[name] for name in places.names[link]], axis=1) for link in links}
     targets = {link: ik.Points(places.local[link], points[link]) for link in links}
-    start, settings = (_start(robot, places, paths), FAR) if q0 is None else (q0, NEAR)
+    start, settings = (_start(robot, places, paths), _FROM_SEED) if q0 is None else (q0, _FROM_NEIGHBOUR)
     track = ik.track(robot, targets, start, settings=settings)
     T = poses(robot, track.q, links)
     errors = []
@@ -141,7 +166,7 @@ def solved(
     return track.q, np.concatenate(errors, axis=1), tuple(n for link in links for n in places.names[link])
 
 
-def _start(robot: Robot, places: Placement, paths: Mapping[str, Array]) -> Array:
+def _start(robot: Robot, places: MarkerPlaces, paths: Mapping[str, Array]) -> Array:
     """Configurations `(n, nq)` with the pelvis on its markers and the knees a little bent."""
     pelvis = dict(zip(places.names["pelvis"], places.local["pelvis"], strict=True))
     T = rigid_fit(pelvis, paths)
@@ -151,7 +176,7 @@ def _start(robot: Robot, places: Placement, paths: Mapping[str, Array]) -> Array
     nearest = good[np.abs(good[:, None] - np.arange(len(T))).argmin(axis=0)]
     q = np.tile(robot.neutral, (len(T), 1))
     q[:, : robot.nq - len(robot.joints)] = _floating(T[nearest])
-    q[:, [robot.column(f"{side}_knee_flexion") for side in SIDES]] = BENT
+    q[:, [robot.column(f"{side}_knee_flexion") for side in SIDES]] = _KNEE_SEED
     return q
 
 

@@ -1,21 +1,21 @@
-"""Marker sets: one entry in SETS each; where every marker sits, as a fraction of its segment."""
+"""Marker sets: where every marker sits on its segment, and recognition of the set of a trial."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from exo_pin.anatomy import SIDES
 from exo_pin.errors import GaitError, UnknownNameError
 
-SEGMENTS = ("pelvis", "thigh", "shank", "foot")
+Segment = Literal["pelvis", "thigh", "shank", "foot"]
 
-LINKS = {"thigh": "thigh", "shank": "shank", "foot": "sole_plate"}
+_LINKS: dict[Segment, str] = {"thigh": "thigh", "shank": "shank", "foot": "sole_plate"}
 """Segment -> link of the robot, behind its side."""
 
-NEEDED = {"pelvis": 3, "thigh": 1, "shank": 1, "foot": 2}
+_FEWEST = {"pelvis": 3, "thigh": 1, "shank": 1, "foot": 2}
 """Fewest markers that determine a segment, given its neighbours."""
 
 
@@ -23,13 +23,13 @@ class Spot(NamedTuple):
     """Where one marker sits on the right side of the body (or in its middle).
 
     Attributes:
-        segment: One of `SEGMENTS`.
+        segment: The segment it sits on.
         place: Forward, left and up from the segment's origin: the point midway between the hip centres, the
             hip, the knee, the ankle; in lengths of the segment (hip width, thigh, shank, heel to toe marker).
         spread: How far laboratories put it from there [m]: what lies within is left to the data.
     """
 
-    segment: str
+    segment: Segment
     place: tuple[float, float, float]
     spread: float
 
@@ -38,7 +38,7 @@ class MarkerSet(NamedTuple):
     """A laboratory's markers.
 
     Attributes:
-        name: What the user calls it.
+        name: Its name in `--markers`.
         middle: Markers in the middle of the body, by name.
         paired: Markers of both sides: `{S}` in the name stands for L or R; the left one is the mirror image.
         asis: Name of the front pelvis markers; their distance scales the pelvis where `hip_width` is given.
@@ -62,32 +62,32 @@ class MarkerSet(NamedTuple):
         out = {name: ("pelvis", spot) for name, spot in self.middle.items()}
         for side in SIDES:
             for name, spot in self.paired.items():
-                link = f"{side}_{LINKS[spot.segment]}" if spot.segment in LINKS else spot.segment
+                link = f"{side}_{_LINKS[spot.segment]}" if spot.segment in _LINKS else spot.segment
                 x, y, z = spot.place
                 mirrored = spot._replace(place=(x, -y if side == "left" else y, z))
                 out[name.format(S=side[0].upper())] = (link, mirrored)
         return out
 
 
-OR = {"SACR": " (or LPSI and RPSI)"}
-"""Marker -> what may stand for it."""
+_ALTERNATIVES = {"SACR": " (or LPSI and RPSI)"}
+"""Marker -> what may take its place."""
 
-FEW = 0.3
+_LEAST_PART = 0.3
 """With a smaller part of a set's markers a trial is of another set."""
 
-BONE, SKIN, WAND = 0.012, 0.03, 0.10
+_BONE, _SKIN, _WAND = 0.012, 0.03, 0.10
 
 _PIG = MarkerSet(
     name="plug-in-gait",
-    middle={"SACR": Spot("pelvis", (-1.15, 0.0, 0.69), BONE)},
+    middle={"SACR": Spot("pelvis", (-1.15, 0.0, 0.69), _BONE)},
     paired={
-        "{S}ASI": Spot("pelvis", (0.27, -0.93, 0.69), BONE),
-        "{S}THI": Spot("thigh", (0.0, -0.36, -0.79), WAND),
-        "{S}KNE": Spot("thigh", (0.0, -0.155, -1.0), BONE),
-        "{S}TIB": Spot("shank", (0.0, -0.30, -0.63), WAND),
-        "{S}ANK": Spot("shank", (0.0, -0.115, -1.0), BONE),
-        "{S}HEE": Spot("foot", (-0.34, -0.01, -0.25), BONE),
-        "{S}TOE": Spot("foot", (0.655, -0.02, -0.15), BONE),
+        "{S}ASI": Spot("pelvis", (0.27, -0.93, 0.69), _BONE),
+        "{S}THI": Spot("thigh", (0.0, -0.36, -0.79), _WAND),
+        "{S}KNE": Spot("thigh", (0.0, -0.155, -1.0), _BONE),
+        "{S}TIB": Spot("shank", (0.0, -0.30, -0.63), _WAND),
+        "{S}ANK": Spot("shank", (0.0, -0.115, -1.0), _BONE),
+        "{S}HEE": Spot("foot", (-0.34, -0.01, -0.25), _BONE),
+        "{S}TOE": Spot("foot", (0.655, -0.02, -0.15), _BONE),
     },
     asis="{S}ASI",
     heel_toe=("{S}HEE", "{S}TOE"),
@@ -98,25 +98,25 @@ _PIG = MarkerSet(
 
 _GAIT2354 = MarkerSet(
     name="opensim-gait2354",
-    middle={"V.Sacral": Spot("pelvis", (-0.582, 0.0, 0.63), BONE)},
+    middle={"V.Sacral": Spot("pelvis", (-0.582, 0.0, 0.63), _BONE)},
     paired={
-        "{S}.ASIS": Spot("pelvis", (0.575, -0.766, 0.581), BONE),
-        "{S}.Thigh.Upper": Spot("thigh", (0.095, -0.198, -0.468), WAND),
-        "{S}.Thigh.Front": Spot("thigh", (0.243, -0.012, -0.581), WAND),
-        "{S}.Thigh.Rear": Spot("thigh", (0.072, -0.172, -0.719), WAND),
-        "{S}.Knee.Lat": Spot("thigh", (-0.001, -0.134, -0.955), BONE),
-        "{S}.Knee.Med": Spot("thigh", (-0.002, 0.126, -0.972), BONE),
-        "{S}.Shank.Upper": Spot("shank", (-0.023, -0.175, -0.155), WAND),
-        "{S}.Shank.Front": Spot("shank", (0.118, -0.045, -0.256), WAND),
-        "{S}.Shank.Rear": Spot("shank", (-0.024, -0.198, -0.306), WAND),
-        "{S}.Ankle.Lat": Spot("shank", (-0.002, -0.129, -1.011), BONE),
-        "{S}.Ankle.Med": Spot("shank", (0.013, 0.084, -0.966), BONE),
-        "{S}.Heel": Spot("foot", (-0.264, -0.008, -0.086), BONE),
-        "{S}.Midfoot.Sup": Spot("foot", (0.286, 0.099, -0.055), SKIN),
-        "{S}.Midfoot.Lat": Spot("foot", (0.245, -0.259, -0.090), SKIN),
-        "{S}.Toe.Lat": Spot("foot", (0.510, -0.292, -0.168), SKIN),
-        "{S}.Toe.Med": Spot("foot", (0.543, 0.073, -0.146), SKIN),
-        "{S}.Toe.Tip": Spot("foot", (0.735, -0.026, -0.141), BONE),
+        "{S}.ASIS": Spot("pelvis", (0.575, -0.766, 0.581), _BONE),
+        "{S}.Thigh.Upper": Spot("thigh", (0.095, -0.198, -0.468), _WAND),
+        "{S}.Thigh.Front": Spot("thigh", (0.243, -0.012, -0.581), _WAND),
+        "{S}.Thigh.Rear": Spot("thigh", (0.072, -0.172, -0.719), _WAND),
+        "{S}.Knee.Lat": Spot("thigh", (-0.001, -0.134, -0.955), _BONE),
+        "{S}.Knee.Med": Spot("thigh", (-0.002, 0.126, -0.972), _BONE),
+        "{S}.Shank.Upper": Spot("shank", (-0.023, -0.175, -0.155), _WAND),
+        "{S}.Shank.Front": Spot("shank", (0.118, -0.045, -0.256), _WAND),
+        "{S}.Shank.Rear": Spot("shank", (-0.024, -0.198, -0.306), _WAND),
+        "{S}.Ankle.Lat": Spot("shank", (-0.002, -0.129, -1.011), _BONE),
+        "{S}.Ankle.Med": Spot("shank", (0.013, 0.084, -0.966), _BONE),
+        "{S}.Heel": Spot("foot", (-0.264, -0.008, -0.086), _BONE),
+        "{S}.Midfoot.Sup": Spot("foot", (0.286, 0.099, -0.055), _SKIN),
+        "{S}.Midfoot.Lat": Spot("foot", (0.245, -0.259, -0.090), _SKIN),
+        "{S}.Toe.Lat": Spot("foot", (0.510, -0.292, -0.168), _SKIN),
+        "{S}.Toe.Med": Spot("foot", (0.543, 0.073, -0.146), _SKIN),
+        "{S}.Toe.Tip": Spot("foot", (0.735, -0.026, -0.141), _BONE),
     },
     asis="{S}.ASIS",
     heel_toe=("{S}.Heel", "{S}.Toe.Tip"),
@@ -134,7 +134,7 @@ def marker_set(names: Iterable[str], name: str | None = None) -> tuple[MarkerSet
 
     Args:
         names: The trial's markers.
-        name: The set, if the user says it; else the one that most markers belong to.
+        name: The set; None: the one that most markers belong to.
 
     Returns:
         The set, and by the set's name of a marker the trial's own (which may differ in case and marks).
@@ -162,9 +162,9 @@ def plain(name: str) -> str:
 
 
 def _check(chosen: MarkerSet, found: Mapping[str, str], own: Sequence[str]) -> None:
-    """Every segment has the markers that it needs, and lengths can be told."""
+    """Raises `GaitError` where a segment lacks markers, or lengths have no markers."""
     wants = list(_gaps(chosen, found)) or list(_unscaled(chosen, found))
-    if wants and len(found) < FEW * len(chosen.spots()):
+    if wants and len(found) < _LEAST_PART * len(chosen.spots()):
         shown = f"{', '.join(own[:10])}{' ...' * (len(own) > 10)}"
         sets = "; ".join(f"{entry.name} ({_names(entry)})" for entry in SETS.values())
         raise GaitError(f"its markers ({shown}) are of no known set; map them to one of {sets}")
@@ -178,22 +178,22 @@ def _names(entry: MarkerSet) -> str:
 
 
 def _gaps(chosen: MarkerSet, found: Mapping[str, str]) -> Iterator[str]:
-    """What segments lack."""
+    """Which markers segments lack."""
     segments: dict[str, list[str]] = {}
     for marker, (link, spot) in chosen.spots().items():
         side = link.partition("_")[0] if link != spot.segment else ""
         segments.setdefault(f"{side} {spot.segment}".strip(), []).append(marker)
     for name, markers in segments.items():
-        needed = NEEDED[name.rpartition(" ")[2]]
+        needed = _FEWEST[name.rpartition(" ")[2]]
         gone = [marker for marker in markers if marker not in found]
         if len(markers) - len(gone) < needed:
             has = f"{name} has {len(markers) - len(gone)} of the {needed} markers that it needs"
-            either = [f"{marker}{OR.get(marker, '')}" for marker in gone]
+            either = [f"{marker}{_ALTERNATIVES.get(marker, '')}" for marker in gone]
             yield f"{has}, missing: {', '.join(either)}"
 
 
 def _unscaled(chosen: MarkerSet, found: Mapping[str, str]) -> Iterator[str]:
-    """What lengths lack."""
+    """Which markers lengths lack."""
     scale = [name.format(S=S) for name in (chosen.asis, *chosen.heel_toe) for S in "LR"]
     gone = [name for name in scale if name not in found]
     if gone:

@@ -1,1 +1,1 @@
-"""Files from strangers: XML, YAML and TOML, read within limits of size and depth."""
+"""Untrusted XML, YAML and TOML files, read within limits of size and depth; one module each."""

@@ -1,4 +1,4 @@
-"""TOML files for people: one commented line per value, written whole or not at all."""
+"""TOML files with a comment behind each value, written whole or not at all."""
 
 from __future__ import annotations
 
@@ -19,7 +19,14 @@ def write(
     comments: Mapping[str, str],
     tables: Mapping[str, Mapping[str, object]],
 ) -> None:
-    """Write values, then tables; `comments` stand behind the values that they name.
+    """Write values, then tables.
+
+    Args:
+        path: The file.
+        title: Comment lines above.
+        values: Name -> value.
+        comments: Name -> comment behind that value.
+        tables: Name -> values of a table.
 
     Raises:
         FormatError: The file cannot be written.

@@ -1,4 +1,4 @@
-"""XML from strangers: no document type (so no entities), capped in size, depth and number of elements."""
+"""XML of untrusted files: no document type (so no entities), limits of size, depth and elements."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from xml.parsers import expat
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes
 
-LARGEST = 32 * 2**20
+_LARGEST = 32 * 2**20
 """Bytes; OpenSim's largest published models have some 5 MiB."""
 
-DEEPEST = 100
+_DEEPEST = 100
 """Elements within elements; a model has a dozen."""
 
-MOST = 200_000
+_MOST = 200_000
 """Elements: bounds memory and time; a full model has some 20 000."""
 
 
@@ -29,8 +29,8 @@ def load_xml(path: Path) -> Element:
             gigabytes or for other files.
     """
     data = read_bytes(path)
-    if len(data) > LARGEST:
-        raise FormatError(path, f"larger than {LARGEST // 2**20} MiB of XML")
+    if len(data) > _LARGEST:
+        raise FormatError(path, f"larger than {_LARGEST // 2**20} MiB of XML")
     reader = _Reader(path)
     try:
         reader.parser.Parse(data, True)
@@ -56,8 +56,8 @@ class _Reader:
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         """An element opens."""
         self.depth, self.count = self.depth + 1, self.count + 1
-        if self.depth > DEEPEST or self.count > MOST:
-            self.refuse(f"more than {DEEPEST} levels or {MOST} elements")
+        if self.depth > _DEEPEST or self.count > _MOST:
+            self.refuse(f"more than {_DEEPEST} levels or {_MOST} elements")
         self.tree.start(tag, dict(attributes))
 
     def end(self, tag: str) -> None:

@@ -1,4 +1,4 @@
-"""YAML from strangers: PyYAML's safe loader, without aliases, capped in size and depth."""
+"""YAML of untrusted files: PyYAML's safe loader, without aliases, limits of size and depth."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 
 from exo_pin.errors import FormatError
 
-LARGEST = 32 * 2**20
+_LARGEST = 32 * 2**20
 """Characters; YAML is read slowly: this takes a minute or two, a minute's walk a second."""
 
-DEEPEST = 32
+_DEEPEST = 32
 """Nodes within nodes; a trajectory has four."""
 
 
@@ -22,9 +22,9 @@ def load_yaml(path: Path, text: str) -> Any:
     """
     import yaml  # 0.03 s, needed here only
 
-    if len(text) > LARGEST:
-        raise FormatError(path, f"larger than {LARGEST // 2**20} MiB of YAML; use .json, .npz or .csv")
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    if len(text) > _LARGEST:
+        raise FormatError(path, f"larger than {_LARGEST // 2**20} MiB of YAML; use .json, .npz or .csv")
+    loader = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
     try:
         _check(path, yaml, loader, text)
         return yaml.load(text, loader)
@@ -44,6 +44,6 @@ def _check(path: Path, yaml: Any, loader: Any, text: str) -> None:
             raise FormatError(path, "holds an alias (*); write it out", line=event.start_mark.line + 1)
         depth += isinstance(event, yaml.events.CollectionStartEvent)
         depth -= isinstance(event, yaml.events.CollectionEndEvent)
-        if depth > DEEPEST:
+        if depth > _DEEPEST:
             line = event.start_mark.line + 1
-            raise FormatError(path, f"more than {DEEPEST} levels deep; a trajectory has four", line=line)
+            raise FormatError(path, f"more than {_DEEPEST} levels deep; a trajectory has four", line=line)

@@ -11,11 +11,12 @@ from dataclasses import dataclass, field
 
 from exo_pin import version
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import SignPreset
 from exo_pin.compare import PHASES, Conditions, Loss, compare
 from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
-from exo_pin.formats import is_markers, load_gait
+from exo_pin.formats import load_gait, open_trial
 from exo_pin.gait import Gait, implausibilities, normative_gait
 from exo_pin.study.fingerprint import code_digest, fingerprint, plain
 from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
@@ -39,7 +40,7 @@ class Case:
     body: Body | None
     parts: tuple[tuple[Conditions, Device], ...]
     path: str = ""
-    preset: str | None = None
+    preset: SignPreset | None = None
     version: str = field(default_factory=lambda: version.__version__)
     code: str = field(default_factory=code_digest)
 
@@ -108,12 +109,13 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     if not case.path:
         body = case.body or Body.from_stature()
         return normative_gait(case.gait, leg_length=body.leg_length), body
-    if is_markers(case.path):
+    file = open_trial(case.path)
+    if file.needs_inverse_kinematics:
         from exo_pin.markers import load_walk
 
-        trial = load_walk(case.path)
+        trial = load_walk(file)
         return trial.gait, case.body or trial.body
-    return load_gait(case.path, preset=case.preset), case.body or Body.from_stature()
+    return load_gait(file, preset=case.preset), case.body or Body.from_stature()
 
 
 def _rows(case: Case, gait: Gait, body: Body, conditions: Conditions) -> Iterator[Row]:

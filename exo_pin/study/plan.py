@@ -8,7 +8,7 @@ from pathlib import Path
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.human import usual_mass
-from exo_pin.anatomy.names import Sex, Speed
+from exo_pin.anatomy.names import Sex, SignPreset, Speed
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
@@ -109,7 +109,7 @@ def recordings(
     devices: Iterable[str | Device] = tuple(known.DEVICES),
     *,
     conditions: Sequence[Conditions] = BOTH_PELVIS_MOTIONS,
-    preset: str | None = None,
+    preset: SignPreset | None = None,
 ) -> list[Case]:
     """Every file of a folder and the folders in it whose ending is that of a walk or a marker trial.
 

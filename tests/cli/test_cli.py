@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exo_pin.cli import COMMANDS, main, options, show
-from exo_pin.formats import load_gait, load_poses, presets
+from exo_pin.cli import COMMANDS, main, show
+from exo_pin.formats import load_gait, load_poses
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -231,10 +231,6 @@ def test_help_is_quick():
     start = time.perf_counter()
     subprocess.run([sys.executable, "-m", "exo_pin", "--help"], capture_output=True, check=True)
     assert time.perf_counter() - start < 5  # an upper bound for slow machines; 0.1 s is usual
-
-
-def test_every_convention_that_is_known_can_be_chosen():
-    assert set(options.PRESETS) == set(presets.PRESETS)
 
 
 @pytest.mark.parametrize("width", ["20", "50", "300"])

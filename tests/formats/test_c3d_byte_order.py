@@ -7,8 +7,8 @@ import pytest
 
 from exo_pin.formats import load_gait, load_markers, save_gait
 from exo_pin.formats.c3d import header
-from exo_pin.formats.c3d.byte_order import to_intel
-from exo_pin.formats.c3d.number_formats import floats
+from exo_pin.formats.c3d.byte_order import floats
+from exo_pin.formats.c3d.ezc3d_reader import to_intel
 from exo_pin.gait import Gait, normative_gait
 
 DEC, MIPS = 85, 86

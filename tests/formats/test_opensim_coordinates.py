@@ -9,13 +9,13 @@ import pytest
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.formats import load_gait, save_gait
-from exo_pin.formats.opensim.pelvis_axes import from_opensim, to_opensim, usual
+from exo_pin.formats import PRESETS, load_gait, save_gait
+from exo_pin.formats.opensim.pelvis_axes import from_opensim, pelvis_joint, to_opensim
 from exo_pin.formats.opensim.storage import read_storage
-from exo_pin.formats.presets import OPENSIM, PRESETS
 from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.gait import Gait, normative_gait
 
+OPENSIM_PRESETS = [name for name in PRESETS if name.startswith("opensim")]
 ROUND_TRIP = 1e-12  # [rad, m]
 FILE = 2e-7  # [rad, m] the recording and its poses carry 8 digits
 GENERIC_OFFSET = np.array([-0.0707, -0.0661, 0])  # gait2392's mid-hip point in its pelvis
@@ -84,7 +84,7 @@ def test_an_unclear_knee_needs_a_preset(path):
     straight = degrees(knee=0.2)
     refused(path, storage(straight), "bend less than 15 degrees")
     knees = [JOINTS.index("right_knee_flexion"), JOINTS.index("left_knee_flexion")]
-    for name in OPENSIM:
+    for name in OPENSIM_PRESETS:
         preset = PRESETS[name]
         gait = load_gait(path, preset=name)
         np.testing.assert_allclose(
@@ -220,13 +220,13 @@ def test_any_base_comes_back_from_opensims_angles(rng):
     base[:, :3, :3] = rotations(q / np.linalg.norm(q, axis=1, keepdims=True))
     base[:, :3, 3] = rng.normal(size=(200, 3))
     angles, translation = to_opensim(base, GENERIC_OFFSET)
-    back = from_opensim([usual()], by_name(angles, translation), GENERIC_OFFSET)
+    back = from_opensim([pelvis_joint()], by_name(angles, translation), GENERIC_OFFSET)
     np.testing.assert_allclose(back, base, atol=ROUND_TRIP)
 
 
 def by_name(angles, translation):
     """The pelvis's coordinates."""
-    return dict(zip(usual().coordinates, np.hstack([angles, translation]).T, strict=True))
+    return dict(zip(pelvis_joint().coordinates, np.hstack([angles, translation]).T, strict=True))
 
 
 @pytest.mark.parametrize(
@@ -235,7 +235,7 @@ def by_name(angles, translation):
 def test_opensims_pelvis_angles_turn_where_their_names_say(name, axis, sign):
     angles = np.zeros((1, 3))
     angles[0, ["tilt", "list", "rotation"].index(name)] = 0.1
-    R = from_opensim([usual()], by_name(angles, np.zeros((1, 3))), np.zeros(3))[0, :3, :3]
+    R = from_opensim([pelvis_joint()], by_name(angles, np.zeros((1, 3))), np.zeros(3))[0, :3, :3]
     # tilt +: the front goes up; list +: the left side goes up; rotation +: the front turns left
     body, world = axis
     assert sign * R[world, body] == pytest.approx(np.sin(0.1))
@@ -286,7 +286,7 @@ def test_the_recording_survives_every_format(shared, tmp_path):
         assert back.source == gait.source
 
 
-@pytest.mark.parametrize("name", OPENSIM)
+@pytest.mark.parametrize("name", OPENSIM_PRESETS)
 def test_a_file_is_written_for_the_family_of_its_model(path, name):
     """Knee's sign and mid-hip are the preset's, and reading finds them in the header."""
     walk = normative_gait("slow")

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from exo_pin.formats import load_gait, save_gait
-from exo_pin.formats.opensim.coordinates import LEGS, TRANSLATIONS
+from exo_pin.formats.opensim.coordinate_names import LEG_COORDINATES
+from exo_pin.formats.opensim.pelvis_axes import PELVIS_TRANSLATIONS
 from exo_pin.gait import Gait, normative_gait
 
 opensim = pytest.importorskip("opensim", reason="OpenSim's Python package is not installed (extra `oracle`)")
@@ -23,10 +24,10 @@ def test_opensim_loads_our_files_with_the_same_numbers(tmp_path, suffix):
     table = opensim.TimeSeriesTable(str(path))
     assert table.getTableMetaDataAsString("inDegrees") == "yes"
     np.testing.assert_allclose(table.getIndependentColumn(), gait.time, atol=DIGITS)
-    for k, name in enumerate(LEGS):
+    for k, name in enumerate(LEG_COORDINATES):
         column = table.getDependentColumn(name).to_numpy()
         np.testing.assert_allclose(column, np.degrees(gait.q[:, k]), atol=DIGITS, err_msg=name)
-    assert set(TRANSLATIONS) <= set(table.getColumnLabels())
+    assert set(PELVIS_TRANSLATIONS) <= set(table.getColumnLabels())
     storage = opensim.Storage(str(path))
     assert (storage.getSize(), storage.isInDegrees()) == (20, True)
 

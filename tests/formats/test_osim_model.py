@@ -13,10 +13,10 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats import load_gait
-from exo_pin.formats.opensim.convention import by_model
-from exo_pin.formats.opensim.coordinates import COLUMNS, LEGS
+from exo_pin.formats.opensim.convention import model_convention
+from exo_pin.formats.opensim.coordinate_names import LEG_COORDINATES
 from exo_pin.formats.opensim.osim_model import load_model
-from exo_pin.formats.opensim.pelvis_axes import OURS
+from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
 
 MANGLED = 40  # a second each; by hand it were thousands
 EXACT = 1e-12  # [rad, m] the same numbers on another way
@@ -125,7 +125,7 @@ def osim(turns=(TILT, LIST, ROTATION), slides=SLIDES, *, version=4, knee=1.0, le
 def motion(path, values):
     """A .mot of these coordinates [deg, m]; the legs stand still but for what is given."""
     n = len(next(iter(values.values())))
-    table = {"time": np.arange(n) / 10} | dict.fromkeys(LEGS, np.zeros(n)) | values
+    table = {"time": np.arange(n) / 10} | dict.fromkeys(LEG_COORDINATES, np.zeros(n)) | values
     rows = ["\t".join(map(repr, map(float, row))) for row in zip(*table.values(), strict=True)]
     path.write_text("\n".join(["Coordinates", "inDegrees=yes", "endheader", "\t".join(table), *rows]))
     return path
@@ -170,9 +170,9 @@ def test_every_order_of_turns_is_composed_as_the_model_has_it(model, tmp_path, a
         R = np.eye(3)
         for name, vector in turns:
             R = R @ about(vector, np.radians(angles[name][k]))
-        np.testing.assert_allclose(base[k, :3, :3], OURS @ R @ OURS.T, atol=EXACT)
+        np.testing.assert_allclose(base[k, :3, :3], FROM_OPENSIM @ R @ FROM_OPENSIM.T, atol=EXACT)
         p = np.array([slides[f"pelvis_t{a}"][k] for a in "xyz"]) + R @ [-0.06, -0.08, 0.0]
-        np.testing.assert_allclose(base[k, :3, 3], OURS @ p, atol=EXACT)
+        np.testing.assert_allclose(base[k, :3, 3], FROM_OPENSIM @ p, atol=EXACT)
     if (signs == 1).all():
         order = [c.removeprefix("pelvis_") for c, _ in turns]
         told = load_gait(path, preset="opensim-gait2392", pelvis_order=order).base
@@ -184,11 +184,11 @@ def test_the_models_knee_tells_its_own_sign(model, tmp_path):
     path = motion(tmp_path / "x.mot", {"knee_angle_l": bent, "knee_angle_r": bent})
     for slope, sign in ((1.0, -1), (-1.0, 1)):  # positive about z stretches the knee
         model.write_text(osim(knee=slope))
-        assert by_model(model, COLUMNS).signs["left_knee_flexion"] == sign
+        assert model_convention(model).signs["left_knee_flexion"] == sign
         gait = load_gait(path, model=model)
         assert np.degrees(gait.q[0, JOINTS.index("right_knee_flexion")]) == pytest.approx(-60 * sign)
         assert "so its model" in gait.source
-    assert by_model(model, COLUMNS).signs == dict.fromkeys(JOINTS, 1)
+    assert model_convention(model).signs == dict.fromkeys(JOINTS, 1)
     assert np.degrees(load_gait(path, model=model, preset="opensim-gait2392").q[0, 3]) == pytest.approx(60)
 
 
@@ -198,7 +198,7 @@ def test_an_offset_frame_turns_the_axis_of_its_joint(model, turn, sign):
     before, after = text.split('name="knee_r"><socket')
     old = "<orientation>0.0 0.0 0.0<"
     model.write_text(f'{before}name="knee_r"><socket{after.replace(old, f"<orientation>0 {turn} 0<", 1)}')
-    signs = by_model(model, COLUMNS).signs
+    signs = model_convention(model).signs
     assert signs["right_knee_flexion"] == sign  # turned by +90 deg about y, x points to -z: flexion
     assert "left_knee_flexion" not in signs  # its axis points forward: nobody's knee
 
@@ -247,20 +247,20 @@ CURVE = '<SimmSpline name="function"><x>0 1 2</x><y>0 1 4</y></SimmSpline>'
     ("text", "match"),
     [
         ("", "no XML"),
-        ("<a><b></a>", "no XML: mismatched tag"),
+        ("<a><b></a>", "no XML"),
         ('<!DOCTYPE a [<!ENTITY x "y">]><a>&x;</a>', "document type"),
         ("<a>" * 200 + "</a>" * 200, "more than 100 levels"),
         ('<?xml version="1.0" encoding="klingon"?><a/>', "no XML"),
         ("<OpenSimDocument/>", "no <Model>"),
         ("<OpenSimDocument><Model/></OpenSimDocument>", "without joints"),
-        (osim().replace("hip_flexion_l", "other"), "no joint turns by 'hip_flexion_l'"),
+        (osim().replace("hip_flexion_l", "other"), "no joint rotates by 'hip_flexion_l'"),
         (osim().replace("/ground", "/bodyset/floor"), "lead from the ground to body 'floor'"),
         (osim().replace("/ground", "/bodyset/pelvis"), "lead from the ground to body 'pelvis'"),
         (osim().replace("0.09", "much"), "'much' is no number"),
         (osim().replace("0.09", "1e99"), "no length or angle"),
         (osim().replace("<axis>0.0 0.0 1.0<", "<axis>1<", 1), "<axis> holds 1 numbers"),
         (osim(kind="PinJoint"), "has 6 coordinates; a PinJoint has 1"),
-        (osim(leg=LEG | {"hip": ([*LEG["hip"][0][::2], ("other", X)], (0, 0, 0))}), "expected turns by"),
+        (osim(leg=LEG | {"hip": ([*LEG["hip"][0][::2], ("other", X)], (0, 0, 0))}), "expected rotations by"),
         (osim().replace(LINE, CURVE, 1), "'ground_pelvis' moves along curves"),
     ],
 )
@@ -331,7 +331,7 @@ def test_models_and_orders_are_for_opensims_files(model, tmp_path, angles):
 
 def test_the_recordings_model_has_its_hips_and_signs(shared):
     folder = shared / "opensim_subject01_walk"
-    means = by_model(folder / "subject01_simbody.osim", COLUMNS)
+    means = model_convention(folder / "subject01_simbody.osim")
     assert {name for name, sign in means.signs.items() if sign < 0} == {
         "left_knee_flexion",
         "right_knee_flexion",
@@ -365,9 +365,9 @@ def test_joints_between_ground_and_pelvis_follow_each_other(model, tmp_path, ang
         R = floor @ np.linalg.multi_dot(
             [about(v, np.radians(angles[c][k])) for c, v in (TILT, LIST, ROTATION)]
         )
-        np.testing.assert_allclose(gait.base[k, :3, :3], OURS @ R @ OURS.T, atol=EXACT)
+        np.testing.assert_allclose(gait.base[k, :3, :3], FROM_OPENSIM @ R @ FROM_OPENSIM.T, atol=EXACT)
         p = [0, 0.1, 0] + about(Y, 0.4) @ [0.3, 0, 0] + floor @ [0, 0.9, 0] + R @ [-0.06, -0.08, 0]
-        np.testing.assert_allclose(gait.base[k, :3, 3], OURS @ p, atol=EXACT)
+        np.testing.assert_allclose(gait.base[k, :3, 3], FROM_OPENSIM @ p, atol=EXACT)
 
 
 KINDS = {
@@ -405,5 +405,7 @@ def test_opensim_puts_the_pelvis_in_the_same_place(model, tmp_path, rng, more, v
             .get("pelvis")
             .findStationLocationInGround(state, opensim.Vec3(-0.06, -0.08, 0))
         )
-        np.testing.assert_allclose(gait.base[k, :3, :3], OURS @ R @ OURS.T, atol=EXACT)
-        np.testing.assert_allclose(gait.base[k, :3, 3], OURS @ [hips.get(i) for i in range(3)], atol=EXACT)
+        np.testing.assert_allclose(gait.base[k, :3, :3], FROM_OPENSIM @ R @ FROM_OPENSIM.T, atol=EXACT)
+        np.testing.assert_allclose(
+            gait.base[k, :3, 3], FROM_OPENSIM @ [hips.get(i) for i in range(3)], atol=EXACT
+        )

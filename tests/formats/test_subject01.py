@@ -10,7 +10,7 @@ import pytest
 from exo_pin import ik
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.formats import load_gait
-from exo_pin.formats.opensim.pelvis_axes import OURS
+from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
 from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
@@ -32,7 +32,7 @@ def recorded(shared):
         p = np.array([[float(row[f"{body}_p{c}"]) for c in "xyz"] for row in rows])
         q = np.array([[float(row[f"{body}_q{c}"]) for c in "wxyz"] for row in rows])
         R = rotations(q / np.linalg.norm(q, axis=1, keepdims=True))
-        out[body] = (p @ OURS.T, OURS @ R @ OURS.T)
+        out[body] = (p @ FROM_OPENSIM.T, FROM_OPENSIM @ R @ FROM_OPENSIM.T)
     return out, load_gait(folder / "subject01_walk1_ik_full_opensim46.mot")
 
 
@@ -45,7 +45,7 @@ def frames(position, rotation):
 def test_the_feet_are_reached_and_the_angles_agree_as_far_as_models_do(recorded):
     bodies, gait = recorded
     p, R = bodies["pelvis"]
-    base = frames(p + R @ (OURS @ HIPS), R)
+    base = frames(p + R @ (FROM_OPENSIM @ HIPS), R)
     reach = max(np.linalg.norm(bodies[f"femur_{s}"][0] - bodies[f"talus_{s}"][0], axis=1).max() for s in "lr")
     thigh = reach - 0.425065 + 1e-3  # the model's shank, and a thigh that lets the longest reach be reached
     body = Body.from_stature(1.8, mass=72.6, hip_width=0.1711044, thigh=thigh, shank=0.425065, limits=LIMITS)

@@ -11,9 +11,8 @@ import pytest
 from exo_pin import signals, viewer
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
-from exo_pin.formats import load_gait, load_torques, save_gait
-from exo_pin.formats.c3d.reader import read_outputs
-from exo_pin.formats.opensim.coordinates import preset_of
+from exo_pin.formats import knee_preset, load_gait, load_torques, open_trial, save_gait
+from exo_pin.formats.c3d import C3dFile
 from exo_pin.gait import Torques, normative_gait
 from exo_pin.robot import load_robot
 
@@ -63,7 +62,9 @@ def test_opensims_moments_drive_the_swinging_leg_as_our_model_does(walk):
 
 def test_push_off_is_a_plantarflexors_and_gives_power(walk):
     gait = load_gait(walk / "subject01_walk1_ik.mot")
-    torques = load_torques(walk / "subject01_walk1_id.sto", preset=preset_of(walk / "subject01_walk1_ik.mot"))
+    torques = load_torques(
+        walk / "subject01_walk1_id.sto", preset=knee_preset(walk / "subject01_walk1_ik.mot")
+    )
     ankle = torques.at(gait.time)[:, ANKLE]
     hardest = ankle.argmin()
     assert ankle[hardest] < -50
@@ -78,10 +79,12 @@ def test_plug_in_gaits_moments_give_the_powers_that_it_computed(shared):
     names = {
         f"{side[0].upper()}{part}Power": (side, part) for side in SIDES for part in ("Hip", "Knee", "Ankle")
     }
-    _, told, mass = read_outputs(path, tuple(names))
+    file = open_trial(path)
+    assert isinstance(file, C3dFile)
+    content = file.content
     for name, (side, part) in names.items():
         mine = [k for k, joint in enumerate(JOINTS) if joint.startswith(f"{side}_{part.lower()}")]
-        ours, theirs = np.nansum(power[:, mine], axis=1), mass * told[name][:, 2]
+        ours, theirs = np.nansum(power[:, mine], axis=1), content.mass * content.output(name)[:, 2]
         both = np.isfinite(power[:, mine[0]]) & np.isfinite(theirs)
         assert both.sum() > 100
         assert np.corrcoef(ours[both], theirs[both])[0, 1] > SAME

@@ -14,12 +14,13 @@ from exo_pin.gait import normative_gait
 from exo_pin.gait.trial import UP_AXES, to_z_up
 from exo_pin.kinematics import poses
 from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
-from exo_pin.markers.body_scale import THIGH, Sizes, body_of, placement
-from exo_pin.markers.marker_fit import human, resized
-from exo_pin.markers.reconstruct import with_sacrum
+from exo_pin.markers.body_scale import Sizes, body_of
+from exo_pin.markers.marker_fit import human_robot, resized
+from exo_pin.markers.marker_places import marker_places
+from exo_pin.markers.reconstruction import with_sacrum
 from exo_pin.robot import load_robot
 
-SIZES = Sizes(0.17, (0.86, 0.85), THIGH, (0.29, 0.29), 0.08)
+SIZES = Sizes(0.17, (0.86, 0.85), 0.499, (0.29, 0.29), 0.08)
 FRAMES = 18
 ROUNDED = 1e-6  # [m] a body's sizes are kept to the micrometre
 ANGLE = 1.5  # [deg] rms: the size of the leg is learnt from its markers, and 1 mm is 5 deg at a straight knee
@@ -38,7 +39,7 @@ def made():
     walk = normative_gait("free", leg_length=body.leg_length, samples=FRAMES)
     names = dict.fromkeys(chosen.spots())
     pelvis = np.array([spot.place for link, spot in chosen.spots().values() if link == "pelvis"]) * 0.17
-    places = placement(chosen, SIZES, pelvis, names)
+    places = marker_places(chosen, SIZES, pelvis, names)
     links = list(places.names)
     T = poses(robot, robot.from_gait(walk), links, base=walk.base)
     paths = {}
@@ -131,13 +132,13 @@ def test_missing_markers_are_named(made):
     slow = dataclasses.replace(walk, time=walk.time * 100)  # too far apart in time to be filled
     with pytest.raises(GaitError, match="never seen together"):
         reconstruct(trial(slow, apart, up="+z"))
-    with pytest.raises(GaitError, match="nobody's"):
+    with pytest.raises(GaitError, match="no person's"):
         reconstruct(trial(walk, {name: 50 * path for name, path in paths.items()}, up="+z"))
 
 
 def test_a_resized_robot_stands_like_one_built_in_that_size(rng):
     chosen, other = SETS["opensim-gait2354"], SIZES._replace(leg=(0.75, 0.80), thigh=0.52)
-    built, robot = human(chosen, other), resized(human(chosen, SIZES), other)
+    built, robot = human_robot(chosen, other), resized(human_robot(chosen, SIZES), other)
     q = built.neutral
     q[7:] = rng.uniform(-0.3, 0.3, len(q) - 7)
     links = sorted({link for link, _ in chosen.spots().values()})

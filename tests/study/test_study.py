@@ -230,7 +230,7 @@ def test_a_changed_recording_is_another_study(walks, tmp_path):
 
 
 def test_a_marker_trial_is_studied_on_its_own_body(shared, tmp_path, monkeypatch):
-    from exo_pin.markers.reconstruct import Reconstruction
+    from exo_pin.markers.reconstruction import Reconstruction
 
     gait, body = normative_gait().resampled(20), Body.from_stature(1.8)
     trial = Reconstruction(gait, body, "set", (), gait.time[:, None], 0)

@@ -83,7 +83,7 @@ def _found(args: argparse.Namespace) -> _Info:
         numbers=walk_numbers(robot, gait),
         outliers=curve_outliers(gait),
         warnings=(*implausibilities(gait), *trials.doubts(args)),
-        markers=trials.facts(args),
+        markers=trials.to_json(args),
     )
 
 

@@ -1,6 +1,6 @@
-"""The child process in which ezc3d reads a file: if it crashes, hangs or swells, nobody else does.
+"""The child process that runs ezc3d, so that a crash, a hang or a lack of memory stays in it.
 
-Run by `c3d.py` as a script of its own: it imports nothing of this package, so it starts quickly.
+Run by `ezc3d_reader.py` as a script of its own: it imports nothing of this package, so it starts quickly.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-TEXTS = {
+_TEXT_PARAMETERS = {
     "labels": ("POINT", "LABELS"),
     "angles": ("POINT", "ANGLES"),
     "forces": ("POINT", "FORCES"),
@@ -27,7 +27,7 @@ TEXTS = {
 }
 """Array -> parameter of texts; those with more than 255 texts go on in LABELS2, LABELS3 ..."""
 
-LABELS = 40
+_MOST_CONTINUATIONS = 40
 """Continuations of a parameter that are looked for."""
 
 
@@ -40,13 +40,19 @@ def limit(megabytes: int, seconds: int) -> None:
             resource.setrlimit(what, (amount, amount))
 
 
-def arrays(path: str) -> dict[str, np.ndarray]:
-    """Everything of the file that the parent may want."""
+def load(path: str):  # type: ignore[no-untyped-def]  # ezc3d has no types
+    """The file; without force plates where ezc3d does not understand them."""
     import ezc3d
 
-    file = ezc3d.c3d(path)
+    with contextlib.suppress(Exception):  # ezc3d raises what it likes for plates of unknown type
+        return ezc3d.c3d(path, extract_forceplat_data=True)
+    return ezc3d.c3d(path)
+
+
+def arrays(file) -> dict[str, np.ndarray]:  # type: ignore[no-untyped-def]
+    """Points, outputs, events and parameters by name."""
     parameters = file["parameters"]
-    out = {name: np.array(_texts(parameters, *place), dtype=str) for name, place in TEXTS.items()}
+    out = {name: np.array(_texts(parameters, *place), dtype=str) for name, place in _TEXT_PARAMETERS.items()}
     out["points"] = file["data"]["points"][:3]
     times = np.atleast_2d(parameters.get("EVENT", {}).get("TIMES", {}).get("value", np.zeros((2, 0))))
     out["event_times"] = np.asarray(times, dtype=float)
@@ -57,14 +63,11 @@ def arrays(path: str) -> dict[str, np.ndarray]:
     return out
 
 
-def platforms(path: str) -> dict[str, np.ndarray]:
-    """Force plates; a file whose plates ezc3d does not understand is read without them."""
-    import ezc3d
-
+def force_plates(file) -> dict[str, np.ndarray]:  # type: ignore[no-untyped-def]
+    """Force plates by number and quantity, up to the first that is not understood."""
     out = {}
-    with contextlib.suppress(Exception):  # ezc3d raises what it likes for plates of unknown type
-        plates = ezc3d.c3d(path, extract_forceplat_data=True)["data"]["platform"]
-        for k, plate in enumerate(plates):
+    with contextlib.suppress(KeyError, TypeError, ValueError):
+        for k, plate in enumerate(file["data"].get("platform", [])):
             for name in ("force", "center_of_pressure", "Tz"):
                 out[f"plate_{k}_{name}"] = np.asarray(plate[name], dtype=float)
             out[f"plate_{k}_units"] = np.array([plate[f"unit_{x}"] for x in ("force", "moment", "position")])
@@ -73,7 +76,7 @@ def platforms(path: str) -> dict[str, np.ndarray]:
 
 def _texts(parameters, group: str, name: str) -> list[str]:  # type: ignore[no-untyped-def]  # ezc3d has no types
     entries = parameters.get(group, {})
-    names = [name, *(f"{name}{k}" for k in range(2, LABELS))]
+    names = [name, *(f"{name}{k}" for k in range(2, _MOST_CONTINUATIONS))]
     return [str(text) for key in names if key in entries for text in entries[key]["value"]]
 
 
@@ -83,8 +86,8 @@ def main() -> None:
     pipe = os.dup(1)
     os.dup2(2, 1)  # whatever ezc3d prints is not the answer
     limit(int(megabytes), int(seconds))
-    answer = arrays(path)
-    answer |= platforms(path)
+    content = load(path)
+    answer = arrays(content) | force_plates(content)
     out = io.BytesIO()
     np.savez(out, allow_pickle=False, **answer)
     with os.fdopen(pipe, "wb") as file:

@@ -1,4 +1,4 @@
-"""What a C3D file says of its own size, checked against its length before anything else reads it."""
+"""Header and parameter records of a C3D file, checked before anything else reads it."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.c3d.number_formats import PROCESSORS, floats, integers
+from exo_pin.formats.c3d.byte_order import PROCESSORS, floats, integers
 
-BLOCK = 512
-KEY = 0x50
-MOST_PARAMETERS = 20_000
+_BLOCK = 512
+_KEY = 0x50
+_MOST_PARAMETERS = 20_000
 
 
 class Layout(NamedTuple):
-    """The sizes that a C3D file claims, found to fit into it.
+    """The sizes that a C3D file states, checked to fit into it.
 
     Attributes:
         points: Points per frame.
         frames: Frames of the file.
         first: Number of the first frame, counted from 1.
         rate: Frames per second.
-        processor: Who wrote the numbers, one of `c3dnumbers.PROCESSORS`.
+        processor: Which wrote the numbers, one of `byte_order.PROCESSORS`.
         parameters: Where the section of parameters begins [byte].
         begin: Where the frames begin [byte].
         end: Where they end.
@@ -68,10 +68,10 @@ def check(path: Path, data: bytes) -> Layout:
     Raises:
         FormatError: It is no C3D file, a record points out of it, or the data are cut short.
     """
-    if len(data) < 2 * BLOCK or data[1] != KEY:
+    if len(data) < 2 * _BLOCK or data[1] != _KEY:
         raise FormatError(path, "not a C3D file: its first block does not say so")
-    start = (data[0] - 1) * BLOCK
-    if not BLOCK <= start <= len(data) - BLOCK:
+    start = (data[0] - 1) * _BLOCK
+    if not _BLOCK <= start <= len(data) - _BLOCK:
         raise FormatError(path, "the header points to parameters outside the file; cut short?")
     processor = data[start + 3]
     if processor not in PROCESSORS:
@@ -81,7 +81,7 @@ def check(path: Path, data: bytes) -> Layout:
     words = integers(data[:20], processor)
     scale, rate = (float(floats(data[at : at + 4], processor)[0]) for at in (12, 20))
     points, analog, first, last = (int(words[k]) for k in (1, 2, 3, 4))
-    begin = (int(words[8]) - 1) * BLOCK
+    begin = (int(words[8]) - 1) * _BLOCK
     numbers = _numbers(path, data, start, begin, processor)
     frames = _frames(numbers, first, last)
     end = begin + frames * (4 * points + analog) * (4 if scale < 0 else 2)
@@ -121,19 +121,28 @@ def _numbers(path: Path, data: bytes, start: int, begin: int, processor: int) ->
 
 
 def records(path: Path, data: bytes, layout: Layout) -> Iterator[Record]:
-    """The groups and parameters of a file that was found sound."""
+    """The groups and parameters of a file.
+
+    Args:
+        path: The file, for messages.
+        data: Its content.
+        layout: Of `check`.
+
+    Raises:
+        FormatError: A record leaves the file.
+    """
     section = _section(data, layout.parameters, layout.begin)
     return _records(path, section, layout.parameters + 4, layout.processor)
 
 
 def _section(data: bytes, start: int, begin: int) -> bytes:
     """The file up to the end of its parameters."""
-    return data[: min(len(data), max(start + data[start + 2] * BLOCK, begin))]
+    return data[: min(len(data), max(start + data[start + 2] * _BLOCK, begin))]
 
 
 def _records(path: Path, section: bytes, at: int, processor: int) -> Iterator[Record]:
     """Groups (kind 0) and parameters, one after the other; every step stays inside the section."""
-    for _ in range(MOST_PARAMETERS):
+    for _ in range(_MOST_PARAMETERS):
         if at + 2 > len(section):
             return
         length, group = (int(x) for x in np.frombuffer(section, "i1", 2, at))
@@ -152,7 +161,7 @@ def _records(path: Path, section: bytes, at: int, processor: int) -> Iterator[Re
         if not step:
             return
         at = next_at + step
-    raise FormatError(path, f"more than {MOST_PARAMETERS} parameters; damaged?")
+    raise FormatError(path, f"more than {_MOST_PARAMETERS} parameters; damaged?")
 
 
 def _parameter(path: Path, section: bytes, group: int, name: str, next_at: int) -> Record:

@@ -12,15 +12,15 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes, write_bytes
-from exo_pin.formats.c3d.foot_contacts import WORDS
-from exo_pin.formats.c3d.reader import PELVIS, PIG, angle_of
+from exo_pin.formats.c3d.foot_contacts import EVENT_WORDS
+from exo_pin.formats.c3d.plug_in_gait import PELVIS_FRAME, PLUG_IN_GAIT, angle_of
 from exo_pin.gait import Gait
-from exo_pin.signals import EVEN, ROUNDED
+from exo_pin.signals import EVEN_GRID, ROUNDED_TIME
 
-AXIS = 100.0
+_AXIS = 100.0
 """Length of the pelvis's axes in the file [mm]."""
 
-LABELS = {kind: words[0].title() for kind, words in WORDS.items()}
+_EVENT_LABELS = {kind: words[0].title() for kind, words in EVENT_WORDS.items()}
 
 
 def write_gait(gait: Gait, path: Path) -> None:
@@ -61,7 +61,11 @@ def _grid(gait: Gait, path: Path) -> tuple[float, int]:
     step = float(gait.time[-1] - gait.time[0]) / (len(gait) - 1)
     frames = gait.time / step
     off = step * float(np.abs(frames - np.round(frames[0]) - np.arange(len(gait))).max())
-    if off > max(EVEN * step, min(ROUNDED, step / 4)) or frames[0] < -EVEN or frames[0] > 60_000:
+    if (
+        off > max(EVEN_GRID * step, min(ROUNDED_TIME, step / 4))
+        or frames[0] < -EVEN_GRID
+        or frames[0] > 60_000
+    ):
         why = (
             f"its samples lie up to {off:.2g} s off the frames of a C3D file; sample the walk at a rate first"
         )
@@ -72,7 +76,7 @@ def _grid(gait: Gait, path: Path) -> tuple[float, int]:
 def _angles(gait: Gait) -> dict[str, Array]:
     """Model angle -> `(n, 3)` [deg]."""
     points: dict[str, Array] = {}
-    for column, joint in PIG.mapping.items():
+    for column, joint in PLUG_IN_GAIT.mapping.items():
         name, k, sign = angle_of(column)
         values = points.setdefault(name, np.zeros((len(gait), 3)))
         values[:, k] = sign * np.degrees(gait.q[:, JOINTS.index(joint)])
@@ -84,8 +88,8 @@ def _pelvis(gait: Gait) -> dict[str, Array]:
     if gait.base is None:
         return {}
     origin = 1e3 * gait.base[:, :3, 3]
-    ends = [origin + AXIS * gait.base[:, :3, k] for k in range(3)]
-    return dict(zip(PELVIS, [origin, *ends], strict=True))
+    ends = [origin + _AXIS * gait.base[:, :3, k] for k in range(3)]
+    return dict(zip(PELVIS_FRAME, [origin, *ends], strict=True))
 
 
 def _padded(values: Array) -> Array:
@@ -98,6 +102,6 @@ def _events(file: Any, gait: Gait) -> None:
         return
     minutes, seconds = zip(*(divmod(event.time, 60) for event in events), strict=True)
     file.add_parameter("EVENT", "USED", [len(events)])
-    file.add_parameter("EVENT", "LABELS", [LABELS[event.kind] for event in events])
+    file.add_parameter("EVENT", "LABELS", [_EVENT_LABELS[event.kind] for event in events])
     file.add_parameter("EVENT", "CONTEXTS", [event.side.title() for event in events])
     file.add_parameter("EVENT", "TIMES", np.array([minutes, seconds]))

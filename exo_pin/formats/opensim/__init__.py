@@ -1,1 +1,6 @@
-"""OpenSim files: coordinates (.mot, .sto), models (.osim), ground reaction forces."""
+"""OpenSim files: coordinates, inverse dynamics and ground reaction forces (.mot, .sto), models (.osim)."""
+
+from exo_pin.formats.opensim.motion_writer import write_gait
+from exo_pin.formats.opensim.storage_file import StorageFile, open_storage
+
+__all__ = ["StorageFile", "open_storage", "write_gait"]

@@ -1,4 +1,4 @@
-"""How an OpenSim model means its coordinates: by habit, or as its .osim file says."""
+"""Conventions of an OpenSim model's coordinates: axes, signs and defaults, usual or by its .osim file."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import PelvisRotation, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, LEG_COORDINATES
 from exo_pin.formats.opensim.osim_joint import Joint
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
-from exo_pin.formats.opensim.pelvis_axes import TURNS, usual, zxy
-from exo_pin.formats.presets import OPENSIM, PRESETS, Point
+from exo_pin.formats.opensim.pelvis_axes import PELVIS_ROTATIONS, pelvis_joint, zxy
+from exo_pin.formats.presets import Point
 
-POSITIVE = {
+_POSITIVE_AXIS: dict[str, tuple[int, int, int]] = {
     "hip_flexion": (0, 0, 1),
     "hip_adduction": (1, 0, 0),
     "hip_rotation": (0, 1, 0),
@@ -27,130 +28,132 @@ POSITIVE = {
     "ankle_dorsiflexion": (0, 0, 1),
     "ankle_inversion": (1, 0, 0),
 }
-"""Movement of the right leg -> the vector about which it turns, in OpenSim's pelvis; of the left leg x and y
-are the other way round."""
+"""Movement of the right leg -> its axis of rotation in OpenSim's pelvis; of the left leg x and y are
+negative."""
 
-SMALL = 1e-3
-"""The turn by which an axis is found [rad]."""
+_PROBE = 1e-3
+"""The rotation by which an axis is found [rad]."""
 
-CLEAR = 0.5
+_CLEAR = 0.5
 """Cosine between a joint's axis and the movement's, above which a sign is clear; a subtalar axis has 0.8."""
 
 
 class Convention(NamedTuple):
-    """What must be known of a model to read its coordinates.
+    """Axes, signs and defaults of the coordinates of a model.
 
     Attributes:
         chain: The joints from the ground to the pelvis.
         mid_hip: Midway between the hip centres in the pelvis, OpenSim axes [m]; None: the preset's.
-        signs: Joint of ours -> +1 or -1, where the model tells.
+        signs: Joint of ours -> +1 or -1, where the model states it.
         defaults: Coordinates that a file need not name, with the value they then have [rad, m].
         hips: Side -> the hip joint, where its order is not flexion, adduction, rotation.
-        said: What the notes say.
+        description: In words, for the source of a walk.
     """
 
     chain: tuple[Joint, ...]
     mid_hip: Point | None = None
     signs: Mapping[str, int] = MappingProxyType({})
     defaults: Mapping[str, float] = MappingProxyType({})
-    hips: Mapping[str, Joint] = MappingProxyType({})
-    said: str = ""
+    hips: Mapping[Side, Joint] = MappingProxyType({})
+    description: str = ""
 
     @property
     def pelvis(self) -> tuple[str, ...]:
         """Names of the pelvis's coordinates."""
         return tuple(dict.fromkeys(name for joint in self.chain for name in joint.coordinates))
 
-    def holding(self, values: Mapping[str, float]) -> Convention:
-        """The same with further coordinates that a file need not name."""
+    def with_defaults(self, values: Mapping[str, float]) -> Convention:
+        """The same convention with further coordinates that a file need not name."""
         return self._replace(defaults={**self.defaults, **values})
 
     @property
-    def turning(self) -> tuple[str, ...]:
-        """Those of them that are angles."""
-        return tuple(axis.coordinate for joint in self.chain for axis in joint.turns if axis.coordinate)
+    def pelvis_angles(self) -> tuple[str, ...]:
+        """Names of those that are angles."""
+        return tuple(axis.coordinate for joint in self.chain for axis in joint.rotations if axis.coordinate)
 
 
-def by_habit(order: Sequence[str] | None = None) -> Convention:
-    """What most models have; `order`: of the pelvis's turns, if the user knows it.
+def default_convention(order: Sequence[PelvisRotation] | None = None) -> Convention:
+    """The convention of most models; `order`: of the pelvis's rotations, if the user knows it.
 
     Raises:
         UnknownNameError: `order` is not tilt, list and rotation in some order.
     """
-    if order is not None and sorted(order) != sorted(TURNS):
-        raise UnknownNameError("order of turns", ",".join(order), (f"{','.join(TURNS)} in any order",))
-    how = f"the {'usual ' * (order is None)}order {', '.join(order or TURNS)}"
-    said = f"pelvis in {how} with a generic mid-hip, as no model (.osim) is given"
-    return Convention((usual(order or tuple(TURNS)),), said=said)
+    if order is not None and sorted(order) != sorted(PELVIS_ROTATIONS):
+        raise UnknownNameError(
+            "order of rotations", ",".join(order), (f"{','.join(PELVIS_ROTATIONS)} in any order",)
+        )
+    how = f"the {'usual ' * (order is None)}order {', '.join(order or PELVIS_ROTATIONS)}"
+    description = f"pelvis in {how} with a generic mid-hip, as no model (.osim) is given"
+    return Convention((pelvis_joint(order or tuple(PELVIS_ROTATIONS)),), description=description)
 
 
-def by_model(path: str | Path, columns: Mapping[str, str]) -> Convention:
-    """What the model's own file says.
-
-    Args:
-        path: An .osim file.
-        columns: Our joint -> the model's coordinate.
+def model_convention(path: str | Path) -> Convention:
+    """The convention of a model by its .osim file.
 
     Raises:
         FormatError: The file cannot be read, has no hips, or moves its pelvis along curves.
     """
     model = load_model(path)
-    hips = {side: _hip(model, columns[joint(side, "hip_flexion")]) for side in SIDES}
+    hips = {side: _hip(model, COORDINATE_OF[joint(side, "hip_flexion")]) for side in SIDES}
     pelvis = hips["left"].parent
     chain = tuple(model.chain(pelvis))
-    signs = {ours: sign for ours, name in columns.items() if (sign := _sign(model, pelvis, ours, name))}
-    wanted = {side: [columns[joint(side, m)] for m in MOVEMENTS[:3]] for side in SIDES}
+    signs = {ours: sign for ours, name in COORDINATE_OF.items() if (sign := _sign(model, pelvis, ours, name))}
+    wanted = {side: [COORDINATE_OF[joint(side, m)] for m in MOVEMENTS[:3]] for side in SIDES}
     odd = {side: hip for side, hip in hips.items() if _is_odd(model, hip, wanted[side])}
     for link in (*chain, *odd.values()):
-        if not all(axis.linear for axis in (*link.turns, *link.slides)):
+        if not all(axis.linear for axis in (*link.rotations, *link.translations)):
             raise FormatError(model.path, f"joint {link.name!r} moves along curves; expected axes")
     x, y, z = np.mean([_centre(hip) for hip in hips.values()], axis=0).tolist()
-    defaults = dict.fromkeys(columns.values(), 0.0) | model.defaults
+    defaults = dict.fromkeys(LEG_COORDINATES, 0.0) | model.defaults
     order = ", ".join(name for link in chain for name in link.coordinates)
-    said = f"pelvis ({order}), mid-hip and signs as {model.path.name} has them"
-    return Convention(chain, (x, y, z), signs, defaults, odd, said)
-
-
-def habit_of(knee: int) -> str:
-    """The preset whose knee has this sign."""
-    return next(name for name in OPENSIM if PRESETS[name].knee == knee)
+    description = f"pelvis ({order}), mid-hip and signs as {model.path.name} has them"
+    return Convention(chain, (x, y, z), signs, defaults, odd, description)
 
 
 def hip_angles(hip: Joint, side: Side, values: Mapping[str, Array]) -> Array:
-    """`(n, 3)` flexion, adduction, rotation [rad], of a hip whose axes come in another order."""
-    at_rest = hip.placed({name: np.zeros(1) for name in hip.coordinates})[0, :3, :3]
+    """Angles of a hip whose axes come in another order.
+
+    Args:
+        hip: The joint.
+        side: Left or right.
+        values: Its coordinates, `(n,)` each [rad].
+
+    Returns:
+        `(n, 3)` flexion, adduction, rotation [rad].
+    """
+    at_rest = hip.transform({name: np.zeros(1) for name in hip.coordinates})[0, :3, :3]
     mirrored = 1 if side == "right" else -1
-    return zxy(hip.placed(values)[:, :3, :3] @ at_rest.T) * [1, mirrored, mirrored]
+    return zxy(hip.transform(values)[:, :3, :3] @ at_rest.T) * [1, mirrored, mirrored]
 
 
 def _hip(model: OsimModel, coordinate: str) -> Joint:
     found = model.moved_by(coordinate)
     if found is None:
         raise FormatError(
-            model.path, f"no joint turns by {coordinate!r}; expected a model with OpenSim's hips"
+            model.path, f"no joint rotates by {coordinate!r}; expected a model with OpenSim's hips"
         )
     return found
 
 
 def _centre(hip: Joint) -> Array:
-    """`(3,)` where the hip turns, in the pelvis [m]."""
-    T = hip.placed({name: np.zeros(1) for name in hip.coordinates} or {"": np.zeros(1)})
+    """`(3,)` the hip centre in the pelvis [m]."""
+    T = hip.transform({name: np.zeros(1) for name in hip.coordinates} or {"": np.zeros(1)})
     return np.asarray((T @ hip.in_child)[0, :3, 3])
 
 
 def _is_odd(model: OsimModel, hip: Joint, usual_order: Sequence[str]) -> bool:
     """Whether the hip's axes follow each other in another order than flexion, adduction, rotation."""
-    order = [axis.coordinate for axis in hip.turns if axis.coordinate]
+    order = [axis.coordinate for axis in hip.rotations if axis.coordinate]
     if order == [name for name in usual_order if name in order]:
         return False
     if not set(hip.coordinates) <= set(usual_order):
         why = f"joint {hip.name[:60]!r} moves by {', '.join(hip.coordinates)[:200]}"
-        raise FormatError(model.path, f"{why}; expected turns by {', '.join(usual_order)}")
+        raise FormatError(model.path, f"{why}; expected rotations by {', '.join(usual_order)}")
     return True
 
 
 def _sign(model: OsimModel, pelvis: str, ours: str, coordinate: str) -> int:
-    """+1 or -1: which way a coordinate turns its joint; 0 where the model does not tell."""
+    """+1 or -1: which way a coordinate rotates its joint; 0 where the model does not state it."""
     moved = model.moved_by(coordinate)
     links = [] if moved is None else model.chain(moved.child)
     if pelvis not in [link.child for link in links]:
@@ -159,11 +162,11 @@ def _sign(model: OsimModel, pelvis: str, ours: str, coordinate: str) -> int:
     if not links:  # it moves the pelvis itself
         return 0
     names = {name for link in links for name in link.coordinates}
-    values = {name: np.array([0.0, SMALL if name == coordinate else 0.0]) for name in names}
-    R = reduce(np.matmul, [link.placed(values)[:, :3, :3] for link in links])
+    values = {name: np.array([0.0, _PROBE if name == coordinate else 0.0]) for name in names}
+    R = reduce(np.matmul, [link.transform(values)[:, :3, :3] for link in links])
     turn = R[1] @ R[0].T
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     side, _, movement = ours.partition("_")
-    positive = np.array(POSITIVE[movement]) * ([1, 1, 1] if side == "right" else [-1, -1, 1])
+    positive = np.array(_POSITIVE_AXIS[movement]) * ([1, 1, 1] if side == "right" else [-1, -1, 1])
     cosine = float(axis @ positive) / max(float(np.linalg.norm(axis)), 1e-12)
-    return 0 if abs(cosine) < CLEAR else 1 if cosine > 0 else -1
+    return 0 if abs(cosine) < _CLEAR else 1 if cosine > 0 else -1

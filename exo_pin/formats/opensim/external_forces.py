@@ -1,36 +1,34 @@
-"""Ground reaction forces in OpenSim's storage files, in their three styles of names."""
+"""Ground reaction forces in OpenSim's storage format, with column names of three styles."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from pathlib import Path
 
 import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
-from exo_pin.formats.opensim.pelvis_axes import OURS
-from exo_pin.formats.opensim.storage import read_storage
+from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
+from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.gait.trial import ForcePlate
 
-FORCE = re.compile(
+_FORCE_COLUMN = re.compile(
     r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"
 )
 """`1_ground_force_vx`, `ground_force_1_vx`, `ground_force_l_px`, `ground_torque_x`, `l_ground_moment_mx`."""
 
 
-def load_forces(path: str | Path) -> tuple[ForcePlate, ...]:
-    """Read the force plates of a .mot or .sto file; OpenSim's axes (y up) become ours (z up).
+def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
+    """The force plates of a storage file; OpenSim's axes (y up) become this package's (z up).
 
     A point or moment that is NaN, as many programs write it while nobody stands on the plate, is 0.
 
     Raises:
-        FormatError: With file and reason: no storage file, no forces, columns that are missing.
+        FormatError: With reason: no forces, columns that are missing.
     """
-    path = Path(path)
-    table = read_storage(path, gaps=True).table
+    table, path = storage.table, storage.table.path
     if "time" not in table.names:
         raise FormatError(path, "no column 'time'", line=table.lines[0] - 1)
     groups = _groups(table.names)
@@ -41,10 +39,10 @@ def load_forces(path: str | Path) -> tuple[ForcePlate, ...]:
 
 
 def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
-    """ForcePlate -> (`vx`, `py`, `mz` ...) -> column."""
+    """Plate -> (`vx`, `py`, `mz` ...) -> column."""
     groups: dict[str, dict[str, str]] = {}
     for name in names:
-        match = FORCE.match(name)
+        match = _FORCE_COLUMN.match(name)
         if match is None:
             continue
         what = "m" if match["kind"] != "force" else match["what"]
@@ -56,12 +54,12 @@ def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
 def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str]) -> ForcePlate:
     parts = []
     for what in "vpm":
-        gone = [what + axis for axis in "xyz" if what + axis not in columns]
-        if gone:
-            raise FormatError(table.path, f"force plate {name or '1'} has no column for {', '.join(gone)}")
+        absent = [what + axis for axis in "xyz" if what + axis not in columns]
+        if absent:
+            raise FormatError(table.path, f"force plate {name or '1'} has no column for {', '.join(absent)}")
         names = [columns[what + axis] for axis in "xyz"]
         values = table.columns(names)
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
-        parts.append(np.nan_to_num(values) @ OURS.T)
+        parts.append(np.nan_to_num(values) @ FROM_OPENSIM.T)
     return ForcePlate(f"force plate {name}".strip(), time, *parts)

@@ -1,4 +1,4 @@
-"""One joint of an OpenSim model: axes, coordinates and offsets, and the transform they make."""
+"""One joint of an OpenSim model: rotation and translation axes, coordinates, offsets, and its transform."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from exo_pin.gait.rigid_poses import about
 
 Vector = tuple[float, float, float]
 
-X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+AXIS_X, AXIS_Y, AXIS_Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 class Axis(NamedTuple):
-    """A turn about, or a slide along, one axis by `slope * coordinate + offset`.
+    """A rotation about, or a translation along, one axis by `slope * coordinate + offset`.
 
     Attributes:
         vector: `(3,)` of length 1.
@@ -42,8 +42,8 @@ class Joint(NamedTuple):
         child: Body that it carries.
         in_parent: `(4, 4)` the joint's frame in the parent body.
         in_child: `(4, 4)` the joint's frame in the child body.
-        turns: One after the other, each about an axis of the frame that the ones before have turned.
-        slides: Along axes of the joint's frame in the parent, before all turns.
+        rotations: One after the other, each about an axis of the frame that the ones before have rotated.
+        translations: Along axes of the joint's frame in the parent, before all rotations.
     """
 
     name: str
@@ -51,21 +51,23 @@ class Joint(NamedTuple):
     child: str
     in_parent: Array
     in_child: Array
-    turns: tuple[Axis, ...]
-    slides: tuple[Axis, ...]
+    rotations: tuple[Axis, ...]
+    translations: tuple[Axis, ...]
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Names of what moves it, without repetition: turns, then slides."""
-        return tuple(dict.fromkeys(a.coordinate for a in (*self.turns, *self.slides) if a.coordinate))
+        """Names of what moves it, without repetition: rotations, then translations."""
+        return tuple(
+            dict.fromkeys(a.coordinate for a in (*self.rotations, *self.translations) if a.coordinate)
+        )
 
-    def placed(self, values: Mapping[str, Array]) -> Array:
+    def transform(self, values: Mapping[str, Array]) -> Array:
         """T_parent_child `(n, 4, 4)` for coordinates `(n,)` [rad, m]."""
         n = len(next(iter(values.values())))
         T = np.tile(np.eye(4), (n, 1, 1))
-        for axis in self.slides:
+        for axis in self.translations:
             T[:, :3, 3] += np.outer(_amount(axis, values, n), axis.vector)
-        for axis in self.turns:
+        for axis in self.rotations:
             T[:, :3, :3] = T[:, :3, :3] @ about(axis.vector, _amount(axis, values, n))
         out = self.in_parent @ T @ np.linalg.inv(self.in_child)
         return np.asarray(out)
@@ -77,9 +79,9 @@ def _amount(axis: Axis, values: Mapping[str, Array], n: int) -> Array:
 
 
 def offset(translation: Sequence[float], orientation: Sequence[float]) -> Array:
-    """`(4, 4)` of an offset frame: translation [m], and turns about x, then y, then z of the turned frame."""
+    """`(4, 4)` of an offset frame: translation [m], then rotations [rad] about its x, y and z."""
     T = np.eye(4)
-    for axis, angle in zip((X, Y, Z), orientation, strict=True):
+    for axis, angle in zip((AXIS_X, AXIS_Y, AXIS_Z), orientation, strict=True):
         T[:3, :3] = T[:3, :3] @ about(axis, angle)
     T[:3, 3] = translation
     return T

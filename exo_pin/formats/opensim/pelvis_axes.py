@@ -1,4 +1,4 @@
-"""The pelvis of OpenSim (x forward, y up, z right) and ours (x forward, y left, z up)."""
+"""Pelvis coordinates of OpenSim (x forward, y up, z right) and pelvis poses with z up."""
 
 from __future__ import annotations
 
@@ -7,34 +7,38 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from exo_pin.anatomy.names import PelvisRotation
 from exo_pin.arrays import Array
-from exo_pin.formats.opensim.osim_joint import Axis, Joint, X, Y, Z
+from exo_pin.formats.opensim.osim_joint import AXIS_X, AXIS_Y, AXIS_Z, Axis, Joint
 
-OURS = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
-"""Takes a vector's OpenSim coordinates to ours."""
+FROM_OPENSIM = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+"""Rotates a vector's OpenSim coordinates to this package's."""
 
-TURNS = {
-    "tilt": Axis(Z, "pelvis_tilt"),
-    "list": Axis(X, "pelvis_list"),
-    "rotation": Axis(Y, "pelvis_rotation"),
+PELVIS_ROTATIONS: dict[PelvisRotation, Axis] = {
+    "tilt": Axis(AXIS_Z, "pelvis_tilt"),
+    "list": Axis(AXIS_X, "pelvis_list"),
+    "rotation": Axis(AXIS_Y, "pelvis_rotation"),
 }
-"""The pelvis's turns about OpenSim's usual axes, in its usual order."""
+"""Rotations of the pelvis about OpenSim's usual axes, in its usual order."""
 
-SLIDES = (Axis(X, "pelvis_tx"), Axis(Y, "pelvis_ty"), Axis(Z, "pelvis_tz"))
+PELVIS_ANGLES = tuple(axis.coordinate for axis in PELVIS_ROTATIONS.values())
+PELVIS_TRANSLATIONS = ("pelvis_tx", "pelvis_ty", "pelvis_tz")
 
 
-def usual(order: Sequence[str] = tuple(TURNS)) -> Joint:
+def pelvis_joint(order: Sequence[PelvisRotation] = tuple(PELVIS_ROTATIONS)) -> Joint:
     """The joint of ground and pelvis in gait2354, gait2392, Rajagopal 2016 and their descendants.
 
     Args:
-        order: The three names of `TURNS`, from the ground to the pelvis.
+        order: The three names of `PELVIS_ROTATIONS`, from the ground to the pelvis.
     """
-    turns = tuple(TURNS[name] for name in order)
-    return Joint("ground_pelvis", "ground", "pelvis", np.eye(4), np.eye(4), turns, SLIDES)
+    rotations = tuple(PELVIS_ROTATIONS[name] for name in order)
+    axes = zip((AXIS_X, AXIS_Y, AXIS_Z), PELVIS_TRANSLATIONS, strict=True)
+    translations = tuple(Axis(axis, name) for axis, name in axes)
+    return Joint("ground_pelvis", "ground", "pelvis", np.eye(4), np.eye(4), rotations, translations)
 
 
 def from_opensim(chain: Sequence[Joint], values: Mapping[str, Array], mid_hip: ArrayLike) -> Array:
-    """Poses of our pelvis, whose origin lies midway between the hips.
+    """Poses of this package's pelvis, whose origin lies midway between the hips.
 
     Args:
         chain: The joints from the ground to OpenSim's pelvis.
@@ -46,21 +50,21 @@ def from_opensim(chain: Sequence[Joint], values: Mapping[str, Array], mid_hip: A
     """
     T = np.eye(4)
     for joint in chain:
-        T = T @ joint.placed(values)
+        T = T @ joint.transform(values)
     base = np.tile(np.eye(4), (len(T), 1, 1))
-    base[:, :3, :3] = OURS @ T[:, :3, :3] @ OURS.T
-    base[:, :3, 3] = (T[:, :3, 3] + T[:, :3, :3] @ np.asarray(mid_hip)) @ OURS.T
+    base[:, :3, :3] = FROM_OPENSIM @ T[:, :3, :3] @ FROM_OPENSIM.T
+    base[:, :3, 3] = (T[:, :3, 3] + T[:, :3, :3] @ np.asarray(mid_hip)) @ FROM_OPENSIM.T
     return base
 
 
 def to_opensim(base: Array, mid_hip: ArrayLike) -> tuple[Array, Array]:
-    """The way back: `(n, 3)` tilt, list, rotation [rad], continuous in time, and `(n, 3)` translation [m]."""
-    R = OURS.T @ base[:, :3, :3] @ OURS
-    return zxy(R), base[:, :3, 3] @ OURS - R @ np.asarray(mid_hip)
+    """Inverse of `from_opensim`: `(n, 3)` tilt, list, rotation [rad], and `(n, 3)` translation [m]."""
+    R = FROM_OPENSIM.T @ base[:, :3, :3] @ FROM_OPENSIM
+    return zxy(R), base[:, :3, 3] @ FROM_OPENSIM - R @ np.asarray(mid_hip)
 
 
 def zxy(R: Array) -> Array:
-    """`(n, 3)` angles [rad], continuous in time, of turns about z, then the turned x, then the turned y."""
+    """`(n, 3)` angles [rad], continuous in time, about z, the rotated x and the twice rotated y."""
     first = np.arctan2(-R[:, 0, 1], R[:, 1, 1])
     second = np.arctan2(R[:, 2, 1], np.hypot(R[:, 0, 1], R[:, 1, 1]))
     third = np.arctan2(-R[:, 2, 0], R[:, 2, 2])

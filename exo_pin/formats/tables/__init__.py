@@ -1,1 +1,21 @@
-"""Numeric tables in text files: our own gaits and poses, and anybody's table of angles."""
+"""Tables of text: joint angles, joint torques and foot poses over time."""
+
+from exo_pin.formats.tables.pose_table import Poses, load_poses, save_poses
+from exo_pin.formats.tables.table_file import (
+    TableFile,
+    open_csv,
+    open_tsv,
+    write_csv_gait,
+    write_tsv_gait,
+)
+
+__all__ = [
+    "Poses",
+    "TableFile",
+    "load_poses",
+    "open_csv",
+    "open_tsv",
+    "save_poses",
+    "write_csv_gait",
+    "write_tsv_gait",
+]

@@ -1,39 +1,56 @@
-"""Tables of our own: comment lines, one header line with exact names, numbers between commas or tabs."""
+"""CSV tables with known column names: comment lines, one header line, numbers between commas or tabs."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
-from exo_pin.files import read_lines, write_text
-from exo_pin.formats.tables.notes import Note, Notes, split, to_lines
-from exo_pin.formats.tables.numeric_table import NumericTable, missing, parse, rows_of_text
+from exo_pin.files import write_text
+from exo_pin.formats.tables.metadata import Comment, Metadata, comment_lines, comments_in
+from exo_pin.formats.tables.numeric_table import NumericTable, check_columns, parse, rows_of_text
 
-MAPPING = "its column = our joint, --map COLUMN=JOINT"
+_MAPPING = "its column = our joint, --map COLUMN=JOINT"
 """How a table of others is read."""
 
 
-def read_csv(
-    path: Path, required: Sequence[str], groups: Mapping[str, Sequence[str]], *, separator: str = ","
-) -> tuple[NumericTable, tuple[str, ...], list[Note]]:
-    """Read a table whose columns are known by name; their order is free.
+class CsvTable(NamedTuple):
+    """A table and what stands around it.
+
+    Attributes:
+        table: The numbers.
+        groups: Groups of columns that are there.
+        comments: Comment lines above the header.
+    """
+
+    table: NumericTable
+    groups: tuple[str, ...]
+    comments: list[Comment]
+
+
+def parse_csv(
+    path: Path,
+    lines: Sequence[str],
+    required: Sequence[str],
+    groups: Mapping[str, Sequence[str]],
+    *,
+    separator: str = ",",
+) -> CsvTable:
+    """Parse a table whose columns are known by name; their order is free.
 
     Args:
-        path: The file.
+        path: The file, for messages.
+        lines: Its lines.
         required: Columns that must be there.
         groups: Columns that come all together or not at all, by the group's name.
         separator: A comma or a tab.
 
-    Returns:
-        The table, the groups that are there, and the comment lines above the header.
-
     Raises:
         FormatError: For anything but such a table, with the line and what was expected.
     """
-    lines = read_lines(path)
     start = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), None)
     if start is None:
         raise FormatError(
@@ -43,20 +60,32 @@ def read_csv(
     if separator == ",":
         _check_separator(path, lines[start], required, start + 1)
     _check_known(path, names, [*required, *(name for group in groups.values() for name in group)], start + 1)
-    missing(path, names, required, line=start + 1)
+    check_columns(path, names, required, line=start + 1)
     present = tuple(group for group, columns in groups.items() if set(columns) & set(names))
     for group in present:
-        missing(path, names, groups[group], line=start + 1)
+        check_columns(path, names, groups[group], line=start + 1)
     table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=separator)
-    return table, present, split(lines[:start])
+    return CsvTable(table, present, comments_in(lines[:start]))
 
 
 def write_csv(
-    path: Path, title: str, notes: Notes, names: Iterable[str], values: Array, *, separator: str = ","
+    path: Path, title: str, metadata: Metadata, names: Iterable[str], values: Array, *, separator: str = ","
 ) -> None:
-    """Write a title for people, the notes, the header and the rows."""
+    """Write a title for people, the metadata, the header and the rows.
+
+    Args:
+        path: The file.
+        title: First comment line.
+        metadata: Events, period and source.
+        names: m column names.
+        values: `(n, m)` numbers.
+        separator: A comma or a tab.
+
+    Raises:
+        FormatError: The file cannot be written.
+    """
     rows = rows_of_text(values, separator)
-    write_text(path, "\n".join([f"# {title}", *to_lines(notes), separator.join(names), *rows, ""]))
+    write_text(path, "\n".join([f"# {title}", *comment_lines(metadata), separator.join(names), *rows, ""]))
 
 
 def _check_separator(path: Path, header: str, required: Sequence[str], line: int) -> None:
@@ -73,9 +102,9 @@ def _check_known(path: Path, names: Sequence[str], known: Sequence[str], line: i
     if 2 * len(strange) > len(names):
         shown, ours = (", ".join(words[:4])[:200] for words in (names, known))
         why = f"its columns ({shown} ...) are not ours ({ours} ...)"
-        raise FormatError(path, f"{why}; a foreign table needs a mapping: {MAPPING}", line=line)
+        raise FormatError(path, f"{why}; a foreign table needs a mapping: {_MAPPING}", line=line)
     for name in strange:
         close = difflib.get_close_matches(name[:80], known, n=1)
-        foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: {MAPPING})"
+        foreign = f"accepted: {', '.join(known)} (a foreign table needs a mapping: {_MAPPING})"
         hint = f"did you mean {close[0]!r}?" if close else foreign
         raise FormatError(path, f"unknown column {name[:80]!r}; {hint}", line=line)

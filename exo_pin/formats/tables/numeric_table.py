@@ -1,4 +1,4 @@
-"""Numeric tables in text files: parsed fast, and the culprit looked for only when that fails."""
+"""Numeric tables of text: named columns of numbers, with the line at fault where one is none."""
 
 from __future__ import annotations
 
@@ -37,7 +37,16 @@ class NumericTable:
         return self.values[:, [self.names.index(name) for name in names]]
 
     def refuse(self, bad: Mask, names: Sequence[str], why: str) -> None:
-        """Raise `FormatError` for the first cell where `bad (n, k)` holds; `names` are its k columns."""
+        """Refuse a table with bad cells.
+
+        Args:
+            bad: `(n, k)` whether a cell is bad.
+            names: The k columns.
+            why: What is expected.
+
+        Raises:
+            FormatError: A cell is bad; the message names the first.
+        """
         if bad.any():
             row, k = np.argwhere(bad)[0]
             value = self.columns([names[k]])[row, 0]
@@ -136,11 +145,21 @@ def _is_number(cell: str) -> bool:
     return "_" not in cell  # Python reads 1_000, other programs do not
 
 
-def missing(path: Path, names: Sequence[str], expected: Iterable[str], *, line: int) -> None:
-    """Raise `FormatError` that lists which of the expected columns are not there."""
-    gone = [name for name in expected if name not in names]
-    if gone:
-        raise FormatError(path, f"missing column{'s' * (len(gone) > 1)}: {', '.join(gone)}", line=line)
+def check_columns(path: Path, names: Sequence[str], expected: Iterable[str], *, line: int) -> None:
+    """Check that columns are there.
+
+    Args:
+        path: The file, for messages.
+        names: Column names of the file.
+        expected: Names of columns that must be among them.
+        line: Number of the header line.
+
+    Raises:
+        FormatError: Some are not; the message lists them.
+    """
+    absent = [name for name in expected if name not in names]
+    if absent:
+        raise FormatError(path, f"missing column{'s' * (len(absent) > 1)}: {', '.join(absent)}", line=line)
 
 
 def rows_of_text(values: Array, separator: str) -> list[str]:

@@ -7,7 +7,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.formats.tables.numeric_table import NumericTable
 
-UNIT = 1e-6
+_UNIT_LENGTH = 1e-6
 """How far a quaternion's length may lie from 1: six decimals, what careful files carry."""
 
 
@@ -31,7 +31,7 @@ def read_poses(table: NumericTable, frame: str) -> Array:
     with np.errstate(over="ignore"):  # squares of absurd numbers: infinitely long is too long as well
         length = np.linalg.norm(values[:, 3:], axis=1)
     bad = np.zeros(values.shape, dtype=bool)
-    bad[:, 3] = ~(np.abs(length - 1) <= UNIT)
+    bad[:, 3] = ~(np.abs(length - 1) <= _UNIT_LENGTH)
     table.refuse(
         bad, pose_names(frame), "its quaternion is not of length 1; expected qw, qx, qy, qz of a rotation"
     )

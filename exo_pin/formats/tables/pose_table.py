@@ -13,15 +13,17 @@ from numpy.typing import ArrayLike
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
-from exo_pin.formats.tables.csv_table import read_csv, write_csv
-from exo_pin.formats.tables.notes import Notes, read
+from exo_pin.files import read_lines
+from exo_pin.formats.tables.csv_table import parse_csv, write_csv
+from exo_pin.formats.tables.metadata import Metadata, read_metadata
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
+from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.validation import check_events, check_poses, check_time, frozen
 
-TIME = "time_s"
-PELVIS = "pelvis"
-TITLE = "Poses in the world: time [s], position [m], unit quaternion w x y z."
+_TIME = "time_s"
+_PELVIS = "pelvis"
+_TITLE = "Poses in the world: time [s], position [m], unit quaternion w x y z."
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -58,19 +60,21 @@ class Poses:
         periodic: bool = False,
         source: str = "",
     ) -> None:
-        put = object.__setattr__  # the dataclass is frozen for everyone else
-        put(self, "time", frozen(time, "time"))
-        check_time(self.time, periodic)
-        put(self, "base", None if base is None else frozen(base, "base"))
-        if not targets:
-            raise GaitError(f"no targets; expected poses of {' or '.join(FEET)}")
-        put(self, "targets", MappingProxyType({name: frozen(T, name) for name, T in targets.items()}))
-        put(self, "events", tuple(sorted(events, key=lambda event: event.time)))
-        put(self, "periodic", bool(periodic))
-        put(self, "source", str(source))
+        set_fields(
+            self,
+            time=frozen(time, "time"),
+            base=None if base is None else frozen(base, "base"),
+            targets=MappingProxyType({name: frozen(T, name) for name, T in targets.items()}),
+            events=tuple(sorted(events, key=lambda event: event.time)),
+            periodic=bool(periodic),
+            source=str(source),
+        )
         self._check()
 
     def _check(self) -> None:
+        check_time(self.time, self.periodic)
+        if not self.targets:
+            raise GaitError(f"no targets; expected poses of {' or '.join(FEET)}")
         n = len(self.time)
         for name in self.targets:
             if name not in FEET:
@@ -90,19 +94,24 @@ def load_poses(path: str | Path) -> Poses:
         FormatError: If the file is not such a table; with file, line and reason.
     """
     path = Path(path)
-    frames = {frame: pose_names(frame) for frame in (PELVIS, *FEET)}
-    table, present, comments = read_csv(path, (TIME,), frames)
+    frames = {frame: pose_names(frame) for frame in (_PELVIS, *FEET)}
+    table, present, comments = parse_csv(path, read_lines(path), (_TIME,), frames)
     feet = [frame for frame in present if frame in FEET]
     if not feet:
         line = table.lines[0] - 1
         raise FormatError(path, f"no foot; expected columns {', '.join(pose_names(FEET[0]))}", line=line)
-    notes = read(path, comments)
-    base = read_poses(table, PELVIS) if PELVIS in present else None
+    metadata = read_metadata(path, comments)
+    base = read_poses(table, _PELVIS) if _PELVIS in present else None
     targets = {frame: read_poses(table, frame) for frame in feet}
-    source = path.name if notes.source is None else notes.source
+    source = path.name if metadata.source is None else metadata.source
     try:
         return Poses(
-            table.times(TIME), base, targets, events=notes.events, periodic=notes.periodic, source=source
+            table.times(_TIME),
+            base,
+            targets,
+            events=metadata.events,
+            periodic=metadata.periodic,
+            source=source,
         )
     except FormatError:
         raise
@@ -116,8 +125,8 @@ def save_poses(poses: Poses, path: str | Path) -> None:
     Raises:
         FormatError: If the file cannot be written.
     """
-    frames = {PELVIS: poses.base} if poses.base is not None else {}
+    frames = {_PELVIS: poses.base} if poses.base is not None else {}
     frames |= poses.targets
-    names = [TIME, *(name for frame in frames for name in pose_names(frame))]
+    names = [_TIME, *(name for frame in frames for name in pose_names(frame))]
     values = np.hstack([poses.time[:, None], *map(pose_values, frames.values())])
-    write_csv(Path(path), TITLE, Notes(poses.events, poses.periodic, poses.source), names, values)
+    write_csv(Path(path), _TITLE, Metadata(poses.events, poses.periodic, poses.source), names, values)

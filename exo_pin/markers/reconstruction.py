@@ -1,4 +1,4 @@
-"""From markers to a walk: scale a body, learn where the markers sit, solve every frame."""
+"""Inverse kinematics of a marker trial: scale a body, calibrate the marker places, solve every frame."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ import numpy as np
 
 from exo_pin import signals
 from exo_pin.anatomy import Body
-from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.names import Sex, Vertical
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
-from exo_pin.formats import Markers, load_markers
+from exo_pin.formats import Markers, TrialFile, load_markers
 from exo_pin.gait import Gait
-from exo_pin.gait.trial import UP_AXES, to_z_up
-from exo_pin.markers.body_scale import Placement, body_of, first_sizes
-from exo_pin.markers.marker_fit import few, learnt, solved
+from exo_pin.gait.trial import UP_AXES, to_z_up, vertical_along
+from exo_pin.markers.body_scale import body_of, first_sizes
+from exo_pin.markers.marker_fit import calibrated, fit_poses, some_frames
+from exo_pin.markers.marker_places import MarkerPlaces
 from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
 from exo_pin.robot import Robot
 
@@ -65,9 +66,9 @@ class Reconstruction:
 
 
 def load_walk(
-    path: str | Path,
+    path: str | Path | TrialFile,
     *,
-    static: str | Path | None = None,
+    static: str | Path | TrialFile | None = None,
     markers: str | None = None,
     mapping: Mapping[str, str] = MappingProxyType({}),
     mass: float | None = None,
@@ -76,8 +77,8 @@ def load_walk(
     """Read a marker trial (.trc, .c3d) and make a walk of it; other arguments as in `reconstruct`.
 
     Args:
-        path: The trial.
-        static: File of a standing trial.
+        path: The trial, or what `exo_pin.formats.open_trial` has read of it.
+        static: The same of a standing trial.
         markers: Name of the marker set.
         mapping: The trial's own name of a marker -> the set's.
         mass: Of the person [kg].
@@ -94,7 +95,7 @@ def load_walk(
     except FormatError:
         raise
     except GaitError as error:
-        raise FormatError(path, str(error)) from error
+        raise FormatError(path.path if isinstance(path, TrialFile) else path, str(error)) from error
 
 
 def reconstruct(
@@ -108,7 +109,7 @@ def reconstruct(
     """Joint angles and pelvis from markers by least squares, on a body scaled to them.
 
     The pelvis, the feet's scale and the longest distance from hip to ankle give the body's first sizes; where
-    markers sit is the set's business, within its spread the data's. Sizes and places are learnt from the
+    markers sit is taken from the set, and within its spread from the data. Both are calibrated on the
     static trial where there is one, else from the trial itself.
 
     Args:
@@ -123,13 +124,13 @@ def reconstruct(
         UnknownNameError: There is no such marker set.
     """
     chosen, paths, moved, filled = _paths(trial, markers)
-    teacher = paths if static is None else _paths(static, chosen.name)[1]
-    shared = {name: path for name, path in paths.items() if name in teacher}
-    sizes, pelvis = first_sizes(chosen, {name: teacher[name] for name in shared})
-    model = learnt(chosen, sizes, pelvis, {name: few(teacher[name]) for name in shared})
+    calibration = paths if static is None else _paths(static, chosen.name)[1]
+    shared = {name: path for name, path in paths.items() if name in calibration}
+    sizes, pelvis = first_sizes(chosen, {name: calibration[name] for name in shared})
+    model = calibrated(chosen, sizes, pelvis, {name: some_frames(calibration[name]) for name in shared})
     start, stop = _seen(model.places, paths)
     used = {name: path[start:stop] for name, path in paths.items()}
-    q, error, names = solved(model.robot, model.places, used)
+    q, error, names = fit_poses(model.robot, model.places, used)
     gait = _gait(model.robot, q, moved, (start, stop), chosen)
     body = body_of(model.sizes, chosen, mass=mass, sex=sex)
     return Reconstruction(gait, body, chosen.name, names, error, filled)
@@ -160,7 +161,7 @@ def with_sacrum(trial: Markers) -> Markers:
     return dataclasses.replace(trial, names=(*trial.names, "SACR"), position=position)
 
 
-def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> str:
+def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> Vertical:
     """The axis along which the pelvis is furthest above the feet."""
     links = chosen.spots()
     groups: dict[bool, list[Array]] = {True: [], False: []}
@@ -169,16 +170,15 @@ def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> str:
         if link == "pelvis" or link.endswith("sole_plate"):
             groups[link == "pelvis"].append(trial.of(given))
     above = np.nanmean(groups[True], axis=(0, 1)) - np.nanmean(groups[False], axis=(0, 1))
-    k = int(np.abs(above).argmax())
-    rest = np.linalg.norm(np.delete(above, k))
-    if not abs(above[k]) > 2 * rest:
+    up = vertical_along(above)
+    if up is None:
         raise GaitError(
             f"which axis is up is not clear: the pelvis is {above} m from the feet; one of {UP_AXES}?"
         )
-    return ("+" if above[k] > 0 else "-") + "xyz"[k]
+    return up
 
 
-def _seen(places: Placement, paths: Mapping[str, Array]) -> tuple[int, int]:
+def _seen(places: MarkerPlaces, paths: Mapping[str, Array]) -> tuple[int, int]:
     """Start and stop of the longest run of frames in which every segment has its markers."""
     good = np.ones(len(next(iter(paths.values()))), dtype=bool)
     for link, names in places.names.items():

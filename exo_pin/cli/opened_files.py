@@ -1,0 +1,67 @@
+"""The files of one command: each is read once, and each marker trial is solved once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exo_pin.anatomy.names import Sex
+
+if TYPE_CHECKING:
+    from exo_pin.formats import Content, TrialFile
+    from exo_pin.markers import Reconstruction
+
+
+class OpenedFiles:
+    """Trial files by path; a command has one in its arguments."""
+
+    def __init__(self) -> None:
+        self._files: dict[Path, TrialFile] = {}
+        self._walks: dict[tuple[object, ...], Reconstruction] = {}
+
+    def open(self, path: str | Path, content: Content | None = None) -> TrialFile:
+        """The content of a file, read at the first call; arguments and errors as of `formats.open_trial`."""
+        from exo_pin.formats import open_trial
+
+        path = Path(path)
+        if path not in self._files:
+            self._files[path] = open_trial(path, content)
+        return self._files[path]
+
+    def reconstruct(
+        self,
+        path: str | Path,
+        *,
+        static: str | None = None,
+        markers: str | None = None,
+        mapping: tuple[tuple[str, str], ...] = (),
+        mass: float | None = None,
+        sex: Sex = "male",
+    ) -> Reconstruction:
+        """The walk of a marker trial.
+
+        Args:
+            path: The trial.
+            static: File of a standing trial.
+            markers: Name of the marker set; None: the best match.
+            mapping: Pairs of a marker's own name and its name in the set.
+            mass: Of the person [kg]; None: by stature.
+            sex: Whose segment masses.
+
+        Raises:
+            FormatError: A file cannot be read, or its markers make no walk.
+            UnknownNameError: There is no such marker set, or no marker of a mapped name.
+        """
+        from exo_pin.markers import load_walk
+
+        key = (Path(path), static, markers, mapping, mass, sex)
+        if key not in self._walks:
+            self._walks[key] = load_walk(
+                self.open(path, "markers"),
+                static=None if static is None else self.open(static, "markers"),
+                markers=markers,
+                mapping=dict(mapping),
+                mass=mass,
+                sex=sex,
+            )
+        return self._walks[key]

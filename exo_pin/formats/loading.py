@@ -1,0 +1,153 @@
+"""Reading and writing walks, marker trials, joint torques and force plates of any format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
+from exo_pin.errors import FormatError
+from exo_pin.formats.opensim import StorageFile, write_gait
+from exo_pin.formats.presets import OPENSIM_PRESETS, find_preset
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial
+from exo_pin.formats.trial_file import TrialFile
+from exo_pin.gait import Gait
+from exo_pin.gait.torques import Torques
+from exo_pin.gait.trial import ForcePlate, Markers
+
+
+def load_gait(
+    path: str | Path | TrialFile,
+    *,
+    preset: SignPreset | None = None,
+    mapping: Mapping[str, str] = MappingProxyType({}),
+    units: AngleUnit | None = None,
+    model: str | Path | None = None,
+    pelvis_order: Sequence[PelvisRotation] | None = None,
+) -> Gait:
+    """Read a walk from a file with joint angles.
+
+    Args:
+        path: A file in one of `FORMATS`, at most 128 MiB, or one that `open_trial` has read.
+        preset: The sign convention, one of `PRESETS`; None: find out or refuse.
+        mapping: The file's column -> joint (or `time`), for tables and trajectories with names of their own.
+            `-column` changes the sign, a number instead of a column holds the joint there.
+        units: `"deg"` or `"rad"`, where a table's column names do not state it.
+        model: The OpenSim model (.osim) of a .mot or .sto file, with axes, order and signs of pelvis and
+            legs and the hip centres.
+        pelvis_order: Without a model: the order of the pelvis's rotations from the ground on, e.g.
+            `("rotation", "list", "tilt")`; None: tilt, list, rotation.
+
+    Raises:
+        FormatError: The file cannot be read; with file, line, reason and what would be accepted.
+        UnknownNameError: There is no such preset, joint, unit or order.
+    """
+    file = path if isinstance(path, TrialFile) else None
+    name = Path(path) if not isinstance(path, TrialFile) else path.path
+    if name.suffix.lower() not in (".mot", ".sto") and (model or pelvis_order):
+        find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
+        raise FormatError(
+            name, "a model (.osim) or an order of the pelvis's rotations is for .mot and .sto files"
+        )
+    order = None if pelvis_order is None else tuple(pelvis_order)
+    options = ReadOptions(preset, mapping, units, None if model is None else Path(model), order)
+    return (file or open_trial(name)).gait(options)
+
+
+def load_markers(path: str | Path | TrialFile) -> Markers:
+    """Read a marker trial (.trc, .c3d), or take it from a file that `open_trial` has read.
+
+    Raises:
+        FormatError: The file cannot be read; with file, reason and, in texts, line.
+    """
+    return _opened(path, "markers").markers()
+
+
+def load_torques(
+    path: str | Path | TrialFile, *, preset: SignPreset | None = None, mass: float | None = None
+) -> Torques:
+    """Read joint torques; the signs become this package's: positive drives the joint the way its name says.
+
+    - `.sto`, `.mot`: OpenSim's inverse dynamics, columns `<coordinate>_moment` [N m]. A generalised force is
+      positive along its coordinate, so only the sign of a knee that is negative in flexion changes; the file
+      does not name its model, so a preset must.
+    - `.c3d`: Plug-in Gait's moments of hip, knee and ankle (no inversion) [N mm/kg], times the person's mass.
+    - `.csv`: a column `time_s` and columns `<joint>_torque_nm` [N m], as many joints as are known.
+
+    Args:
+        path: The file, or one that `open_trial` has read.
+        preset: The OpenSim model's sign convention, e.g. `"opensim-gait2392"`.
+        mass: Of the person [kg], for moments per kg; None: as the file has it.
+
+    Raises:
+        FormatError: The file cannot be read; with file, line, reason and what would be accepted.
+        UnknownNameError: There is no such preset.
+    """
+    return _opened(path, "torques").torques(preset, mass)
+
+
+def load_forces(path: str | Path | TrialFile) -> tuple[ForcePlate, ...]:
+    """Read the force plates of a .mot, .sto or .c3d file, or of one that `open_trial` has read.
+
+    OpenSim's axes (y up) become this package's (z up); a C3D file keeps its own.
+
+    Raises:
+        FormatError: With file and reason: no such file, no forces, columns that are missing.
+    """
+    return _opened(path, "forces").force_plates()
+
+
+def is_markers(path: str | Path | TrialFile) -> bool:
+    """Whether a file holds markers and no joint angles: its walk is made by `exo_pin.markers.load_walk`.
+
+    Raises:
+        FormatError: A file that may hold both cannot be read.
+    """
+    if isinstance(path, TrialFile):
+        return path.needs_inverse_kinematics
+    suffix = Path(path).suffix.lower()
+    if suffix in FORMATS and suffix in MARKER_FORMATS:
+        return open_trial(path).needs_inverse_kinematics
+    return suffix in MARKER_FORMATS
+
+
+def knee_preset(path: str | Path | TrialFile, *, model: str | Path | None = None) -> SignPreset | None:
+    """The preset whose signs a file of OpenSim coordinates has, as `load_gait` finds it; None: another file.
+
+    Raises:
+        FormatError: There are no coordinates in it, or the sign of the knee is not clear.
+    """
+    file = _opened(path, "angles")
+    return file.preset(None if model is None else Path(model)) if isinstance(file, StorageFile) else None
+
+
+def save_gait(gait: Gait, path: str | Path, *, preset: SignPreset | None = None) -> None:
+    """Write a walk to a file; its ending tells the format. All or nothing: never a half-written file.
+
+    Args:
+        gait: The walk.
+        path: The file.
+        preset: Of a .mot or .sto file: the model family it is for; `"opensim-gait2392"` writes the knee
+            negative in flexion, None is `"opensim-rajagopal"`.
+
+    Raises:
+        FormatError: The ending is unknown, has no choice of preset, or the file cannot be written.
+        UnknownNameError: There is no such preset of OpenSim's models.
+    """
+    path = Path(path)
+    if preset is not None:
+        if path.suffix.lower() not in (".mot", ".sto"):
+            raise FormatError(path, "only .mot and .sto files are written for a model's preset")
+        write_gait(gait, path, preset=find_preset(preset, OPENSIM_PRESETS))
+        return
+    write = find_format(path, "angles", {key: entry for key, entry in FORMATS.items() if entry.write}).write
+    assert write is not None  # the formats that cannot be written are left out
+    write(gait, path)
+
+
+def _opened(path: str | Path | TrialFile, content: Content) -> TrialFile:
+    if isinstance(path, TrialFile):
+        return path
+    return open_trial(path, content)

@@ -1,0 +1,145 @@
+"""The table of file formats: one entry each, with its endings, its reader and its writer."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Literal, NamedTuple
+
+from exo_pin.errors import FormatError
+from exo_pin.formats import c3d, opensim, tables
+from exo_pin.formats.gait_npz import open_archive, write_archive
+from exo_pin.formats.joint_trajectory import open_json, open_yaml
+from exo_pin.formats.trajectory_writer import write_json, write_yaml
+from exo_pin.formats.trc import open_trc
+from exo_pin.formats.trial_file import TrialFile
+from exo_pin.gait import Gait
+
+Content = Literal["angles", "markers", "torques", "forces"]
+
+
+class Format(NamedTuple):
+    """A file format.
+
+    Attributes:
+        name: In words.
+        suffixes: File name endings, in lower case.
+        holds: What its files can hold.
+        open: Reads a file once.
+        write: Gait and path, or None where the format is only read. The pelvis's motion is kept.
+    """
+
+    name: str
+    suffixes: tuple[str, ...]
+    holds: tuple[Content, ...]
+    open: Callable[[Path], TrialFile]
+    write: Callable[[Gait, Path], None] | None
+
+
+_ALL = (
+    Format(
+        "exo_pin CSV, or any CSV with a mapping",
+        (".csv",),
+        ("angles", "torques"),
+        tables.open_csv,
+        tables.write_csv_gait,
+    ),
+    Format(
+        "exo_pin table with tabs, or any with a mapping",
+        (".tsv",),
+        ("angles",),
+        tables.open_tsv,
+        tables.write_tsv_gait,
+    ),
+    Format("any table with a mapping", (".txt",), ("angles",), tables.open_tsv, None),
+    Format(
+        "OpenSim coordinates",
+        (".mot", ".sto"),
+        ("angles", "torques", "forces"),
+        opensim.open_storage,
+        opensim.write_gait,
+    ),
+    Format("NumPy archive", (".npz",), ("angles",), open_archive, write_archive),
+    Format("ROS JointTrajectory, YAML", (".yaml", ".yml"), ("angles",), open_yaml, write_yaml),
+    Format(
+        "C3D model angles (Plug-in Gait)",
+        (".c3d",),
+        ("angles", "markers", "torques", "forces"),
+        c3d.open_c3d,
+        c3d.write_gait,
+    ),
+    Format("ROS JointTrajectory, JSON", (".json",), ("angles",), open_json, write_json),
+    Format("marker trial of Motion Analysis", (".trc",), ("markers",), open_trc, None),
+)
+
+
+def formats_of(content: Content) -> Mapping[str, Format]:
+    """File name ending -> format, of the formats that can hold this content."""
+    return MappingProxyType(
+        {suffix: entry for entry in _ALL if content in entry.holds for suffix in entry.suffixes}
+    )
+
+
+FORMATS = formats_of("angles")
+"""File name ending -> format of a walk as joint angles."""
+
+MARKER_FORMATS = formats_of("markers")
+"""File name ending -> format of a marker trial."""
+
+_ENDINGS: Mapping[Content, str] = MappingProxyType(
+    {
+        "angles": "a gait file ends in",
+        "markers": "a marker trial ends in",
+        "torques": "torques end in",
+        "forces": "ground reaction forces end in",
+    }
+)
+
+_NO_MOTION = MappingProxyType(
+    {
+        ".osim": "an OpenSim model holds no motion; name it as the model of a .mot or .sto file",
+        ".xml": "a setup holds no motion; name the .mot or .trc file that it works on",
+    }
+)
+"""File name ending -> why there is nothing to read."""
+
+
+def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
+    """Read a trial file once, whatever it holds; its ending tells the format.
+
+    Args:
+        path: A file of at most 128 MiB.
+        content: What is wanted of it: the ending must be one of its formats. None: any.
+
+    Returns:
+        The content, to be given to `load_gait`, `load_markers`, `load_torques` and `load_forces` in place of
+        the path.
+
+    Raises:
+        FormatError: The file cannot be read; with file, line, reason and what would be accepted.
+    """
+    path = Path(path)
+    known = formats_of(content) if content else {**FORMATS, **MARKER_FORMATS}
+    return find_format(path, content or "angles", known).open(path)
+
+
+def find_format(path: Path, content: Content, known: Mapping[str, Format]) -> Format:
+    """The format of a file by its ending.
+
+    Args:
+        path: The file.
+        content: What is wanted of it, for the message.
+        known: Formats to choose from, by ending.
+
+    Raises:
+        FormatError: The ending is unknown; the message lists those that are known.
+    """
+    suffix = path.suffix.lower()
+    if content == "angles" and suffix in _NO_MOTION:
+        raise FormatError(path, _NO_MOTION[suffix])
+    if suffix not in known:
+        what = "a folder" if os.path.isdir(path) else f"unknown kind of file {path.suffix!r}"
+        raise FormatError(path, f"{what}; {_ENDINGS[content]} {', '.join(known)}")
+    return known[suffix]

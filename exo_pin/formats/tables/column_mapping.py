@@ -1,0 +1,174 @@
+"""Column mapping: which column of a foreign table is the time and which is which joint, and their unit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import NamedTuple
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.anatomy.names import AngleUnit
+from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.formats.presets import find_preset
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.units import ANGLE_UNITS, angle_unit
+
+_TIME = "time"
+"""What a mapping calls the column of seconds."""
+
+_TIME_NAMES = ("time_s", "time", "t", "time [s]", "time (s)", "time[s]", "time(s)")
+"""Names of a column of seconds, in lower case, where the mapping has none."""
+
+_MOST_LINES = 200
+"""Before the column names: what measuring programs write of themselves."""
+
+_UNIT_ENDING = re.compile(r"(?:_|\[|\(|\s)(deg|rad|degrees|radians|°)[\])]?$", re.IGNORECASE)
+
+
+class Column(NamedTuple):
+    """Where a joint's angle comes from: a column by name, or the same number in every row."""
+
+    name: str
+    sign: int
+    constant: float | None
+
+
+class Header(NamedTuple):
+    """The line with the column names.
+
+    Attributes:
+        path: The file, for messages.
+        row: Number of the line, counted from 0.
+        separator: What separates its cells: a comma, a semicolon or a tab.
+        names: Names of the columns.
+    """
+
+    path: Path
+    row: int
+    separator: str
+    names: list[str]
+
+    @property
+    def line(self) -> int:
+        """Number of the line, counted from 1."""
+        return self.row + 1
+
+    def time(self, mapping: Mapping[str, str]) -> str:
+        """The column of seconds: mapped to `time`, or of a usual name.
+
+        Raises:
+            FormatError: There is none.
+        """
+        mapped = [column for column, name in mapping.items() if name == _TIME]
+        found = mapped or [name for name in self.names if name.lower() in _TIME_NAMES]
+        if not found or found[0] not in self.names:
+            raise FormatError(self.path, "no column of seconds; map one to 'time'", line=self.line)
+        return found[0]
+
+    def joints(self, mapping: Mapping[str, str]) -> dict[str, Column]:
+        """Joint -> where its angle is.
+
+        Raises:
+            FormatError: A mapped column or a joint is missing.
+        """
+        known, columns = _aliases(self.names), dict[str, Column]()
+        for key, value in mapping.items():
+            for joint in _split([value]):
+                if joint != _TIME:
+                    columns[joint] = self._column(known, key)
+        absent = [joint for joint in JOINTS if joint not in columns]
+        if absent:
+            hint = f"a number as column holds a joint, as in 0={absent[0]}"
+            why = f"no column is mapped to {', '.join(absent)}; {hint}"
+            raise FormatError(self.path, why, line=self.line)
+        return columns
+
+    def unit(self, chosen: str | None, columns: Sequence[str]) -> AngleUnit:
+        """The unit of angles.
+
+        Args:
+            chosen: By the user.
+            columns: Names of the columns of angles, which may end in it.
+
+        Raises:
+            FormatError: Neither states it.
+            UnknownNameError: There is no such unit.
+        """
+        if chosen:
+            return angle_unit(chosen)
+        endings = {match[1].lower()[:3] if (match := _UNIT_ENDING.search(name)) else "" for name in columns}
+        units = {"deg" if unit == "°" else unit for unit in endings}
+        if len(units) == 1 and units <= set(ANGLE_UNITS):
+            return angle_unit(units.pop())
+        raise FormatError(
+            self.path, "nothing says whether angles are deg or rad; give the units", line=self.line
+        )
+
+    def _column(self, known: Mapping[str, str], key: str) -> Column:
+        if key in known:
+            return Column(known[key], 1, None)
+        if key.startswith("-") and key[1:] in known:
+            return Column(known[key[1:]], -1, None)
+        try:
+            return Column(key, 1, float(key))
+        except ValueError:
+            why = f"no column {key[:80]!r}; the file has {', '.join(sorted(known)[:12])[:300]}"
+            raise FormatError(self.path, why, line=self.line) from None
+
+
+def column_mapping(options: ReadOptions) -> dict[str, str]:
+    """Column -> joints or time, of the preset and the mapping together; the mapping wins.
+
+    Raises:
+        UnknownNameError: There is no such preset or joint.
+    """
+    name = options.preset or (None if options.mapping else "exo_pin")
+    chosen = find_preset(name).mapping if name else {}
+    mapped = set(_split(options.mapping.values()))
+    for joint in mapped:
+        if joint not in (_TIME, *JOINTS):
+            raise UnknownNameError("joint", joint, (*JOINTS, _TIME))
+    kept = {column: joint for column, joint in chosen.items() if joint not in mapped}
+    return kept | dict(options.mapping)
+
+
+def find_header(path: Path, lines: Sequence[str], mapping: Mapping[str, str]) -> Header:
+    """The line with most of the mapped columns, among the first 200.
+
+    Args:
+        path: The file, for messages.
+        lines: Its lines.
+        mapping: Column -> joints or time.
+
+    Raises:
+        FormatError: No line has one of them.
+    """
+    most, best = 0, (0, ",")
+    for k, line in enumerate(islice(lines, _MOST_LINES)):
+        for separator in "\t;,":
+            names = _aliases(cells_of(line, separator))
+            found = sum(column in names or column.lstrip("-") in names for column in mapping)
+            if found > most:
+                most, best = found, (k, separator)
+    if not most:
+        columns = ", ".join(list(mapping)[:4])
+        why = f"no header line with the mapped columns ({columns} ...); map the names as the file has them"
+        raise FormatError(path, why)
+    return Header(path, *best, cells_of(lines[best[0]], best[1]))
+
+
+def cells_of(line: str, separator: str) -> list[str]:
+    """The cells of a line, without blanks and quotation marks around them."""
+    return [cell.strip().strip('"') for cell in line.split(separator)]
+
+
+def _split(values: Iterable[str]) -> list[str]:
+    return [name.strip() for value in values for name in value.split(",")]
+
+
+def _aliases(names: Iterable[str]) -> dict[str, str]:
+    """Each name, and each name without the unit at its end -> the name."""
+    names = list(names)
+    return {_UNIT_ENDING.sub("", name).strip(): name for name in names} | {name: name for name in names}

@@ -1,0 +1,70 @@
+"""The reader interface: a trial file, read once, and the records that its content is turned into."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from exo_pin.anatomy.names import SignPreset
+from exo_pin.errors import FormatError
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.gait import Gait
+from exo_pin.gait.torques import Torques
+from exo_pin.gait.trial import ForcePlate, Markers
+
+
+@dataclass(frozen=True, eq=False)
+class TrialFile:
+    """The content of one file, in memory; no method reads the file again.
+
+    A format is a subclass with its content as fields. It overrides the methods for what its files can hold;
+    the others refuse.
+
+    Attributes:
+        path: The file, for messages and sources.
+    """
+
+    path: Path
+
+    @property
+    def needs_inverse_kinematics(self) -> bool:
+        """Whether the file holds markers and no joint angles: `exo_pin.markers.load_walk` makes its walk."""
+        return False
+
+    def gait(self, options: ReadOptions) -> Gait:
+        """The walk by its joint angles.
+
+        Raises:
+            FormatError: There are none, or they are unusable; with reason and, in texts, line.
+            UnknownNameError: An option names no preset, joint, unit or order.
+        """
+        raise FormatError(self.path, "holds no joint angles")
+
+    def markers(self) -> Markers:
+        """The marker trial, with events and force plates where the file has them.
+
+        Raises:
+            FormatError: There are no markers, or they are unusable.
+        """
+        raise FormatError(self.path, "holds no markers")
+
+    def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
+        """Joint torques.
+
+        Args:
+            preset: Sign convention of the model they were computed with.
+            mass: Of the person [kg], for moments per kg; None: as the file has it.
+
+        Raises:
+            FormatError: There are none, or their signs or scale are not known.
+            UnknownNameError: There is no such preset.
+        """
+        raise FormatError(self.path, "holds no joint torques")
+
+    def force_plates(self) -> tuple[ForcePlate, ...]:
+        """Ground reaction forces, by plate.
+
+        Raises:
+            FormatError: There are none.
+        """
+        raise FormatError(self.path, "holds no ground reaction forces")
