@@ -64,8 +64,8 @@ def test_toes_bend_as_far_as_the_ground_demands_and_no_further():
     bent = {joint: q[:, robot.column(joint)] for joint in ("left_toe_dorsiflexion", "right_toe_dorsiflexion")}
     assert all(angle.min() == 0 and 0.3 < angle.max() <= np.radians(60) + 1e-6 for angle in bent.values())
     straight = q.copy()
-    for joint in bent:
-        straight[:, robot.column(joint)] = 0
+    for toe in bent:
+        straight[:, robot.column(toe)] = 0
     for side in ("left", "right"):
         link = f"{side}_toe_plate"
         low = (poses(robot, q, [link], base=base)[:, 0] @ tip)[:, 2]
