@@ -107,7 +107,7 @@ def box_step(A: Array, b: Array, lower: Array, upper: Array) -> Array:
     """
     x = _solution(A, b)
     out = (x < lower) | (x > upper)
-    if not out.any():
+    if not np.count_nonzero(out):
         return x
     if b.ndim == 1:
         return _active_set(A, b, lower, upper)
@@ -127,20 +127,27 @@ def _active_set(A: Array, b: Array, lower: Array, upper: Array) -> Array:
     busy = np.ones(b.shape[1:], dtype=bool)
     for _ in range(_ROUNDS):
         wish = np.where(held, x, _held_solution(A, b, x, held))
-        d = wish - x
-        with np.errstate(divide="ignore", invalid="ignore"):
-            room = np.where(d > 0, (upper - x) / d, np.where(d < 0, (lower - x) / d, np.inf))
-        share = np.minimum(room.min(axis=0), 1.0)
-        x = np.where(busy, np.minimum(np.maximum(x + share * d, lower), upper), x)
+        share = _share(x, wish - x, lower, upper)
+        x = np.where(busy, np.minimum(np.maximum(x + share * (wish - x), lower), upper), x)
         held |= ((x <= lower) & (wish < x)) | ((x >= upper) & (wish > x))
+        full = share == 1.0
+        if not full.any():
+            continue
         descent = b - _times(A, x)
-        wrong = held & np.where(x >= upper, descent < 0.0, descent > 0.0) & (upper > lower) & (share == 1.0)
-        busy = (share < 1.0) | wrong.any(axis=0)
+        wrong = held & np.where(x >= upper, descent < 0.0, descent > 0.0) & (upper > lower) & full
+        busy = ~full | wrong.any(axis=0)
         if not busy.any():
             break
         worst = np.argmax(np.where(wrong, np.abs(descent), -1.0), axis=0)
         held &= ~(wrong & (joints == worst))
     return x
+
+
+def _share(x: Array, d: Array, lower: Array, upper: Array) -> Array:
+    """The share of the way d from x that stays within the box, at most 1: (m,), or a number."""
+    room = np.full(d.shape, np.inf)
+    np.divide(np.where(d > 0.0, upper, lower) - x, d, out=room, where=d != 0.0)
+    return np.asarray(np.minimum(room.min(axis=0), 1.0))
 
 
 def _held_solution(A: Array, b: Array, x: Array, held: Mask) -> Array:
