@@ -41,14 +41,7 @@ def test_the_slide_of_either_foot_is_measured_while_it_stands_alone(side, first)
     corners[:, first : first + 4, 2] = 0.0
     corners[:, first : first + 4, 1] = 0.03 * np.clip(time - 0.5, 0.0, 1.0)[:, None]
     stance: Intervals = {"left": (), "right": (), side: ((0.5, 1.5),)}
-    found = support(
-        "still",
-        gait,
-        np.tile(np.eye(4), (201, 1, 1)),
-        corners,
-        {side: ((0.5, 1.5),), other: ()},
-        "The pelvis",
-    )
+    found = support("still", gait, np.tile(np.eye(4), (201, 1, 1)), corners, stance, "The pelvis")
     assert found.slide == pytest.approx(0.03, rel=0.03)
 
 
