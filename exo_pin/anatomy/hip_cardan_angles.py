@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.anatomy.names import HIP_ORDERS, SIDES, Side
+from exo_pin.anatomy.names import HIP_ORDERS, SIDES, HipOrder, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 
 
-def reorder(angles: npt.ArrayLike, side: Side, *, source: str, target: str) -> Array:
+def reorder(angles: npt.ArrayLike, side: Side, *, source: HipOrder, target: HipOrder) -> Array:
     """Hip angles of the order `source` as those of the order `target` that make the same rotation.
 
     Args:

@@ -37,7 +37,7 @@ def yaw(base: Array) -> Array:
 def heading(gait: Gait) -> float | None:
     """Mean heading of a walk as an angle from x about the vertical [rad].
 
-    None where there is none: the pelvis does not move, or the walk turns around.
+    None if the pelvis does not move, or the walk turns around.
     """
     if gait.base is None:
         return None

@@ -284,7 +284,7 @@ class Robot:
         return mine, [self.column(JOINTS[k]) for k in mine]
 
 
-def _in_order(q: Array, *, source: str, target: str) -> Array:
+def _in_order(q: Array, *, source: HipOrder, target: HipOrder) -> Array:
     """Angles (n, 12) in the order of `JOINTS` with the hips converted from one order of axes to another."""
     q = q.copy()
     for side in SIDES:

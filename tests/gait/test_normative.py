@@ -6,11 +6,13 @@ import csv
 import subprocess
 import sys
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from exo_pin.anatomy import CORNERS, JOINTS, MOVEMENTS, Body
+from exo_pin.anatomy.names import Speed
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS, normative_gait, normative_sd, schwartz2008, schwartz2008_sd
 from exo_pin.kinematics import poses
@@ -219,3 +221,7 @@ def test_impossible_requests_are_refused():
     for length in (93.0, 0.0, float("nan")):
         with pytest.raises(GaitError, match="leg_length"):
             normative_gait(leg_length=length)
+
+
+def test_speeds_are_those_of_the_data_and_of_their_type():
+    assert get_args(Speed) == SPEEDS == tuple(schwartz2008.MEAN_ANGLES) == tuple(schwartz2008_sd.SD_ANGLES)
