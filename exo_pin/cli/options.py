@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.body import both_sides
 from exo_pin.anatomy.names import SIGN_PRESETS
-from exo_pin.cli import plate_options, trials
+from exo_pin.cli import plate_options, show, trials
 from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS
@@ -42,13 +42,15 @@ def add_preset(parser: argparse._ActionsContainer, what: str) -> None:
 
 
 def gait_from(args: argparse.Namespace, body: Body) -> Gait:
-    """The gait that the arguments name; reasons to doubt how it was read go to stderr."""
+    """The gait of the arguments; what its file was read as, and reasons to doubt that, go to stderr."""
     walk = trials.gait(args)
     if walk is None:
         options = {"preset": args.preset, "mapping": trials.mapping(args), "units": args.units}
         walk = load(args.gait, body, args.files, **options, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
-        print(f"read: {walk.source}", file=sys.stderr)
+        print(f"read: {show.plain(walk.source)}", file=sys.stderr)
+    for remark in walk.remarks:
+        print(f"note: {show.plain(remark)}", file=sys.stderr)
     walk = plate_options.with_plate_events(args, body, walk)
     from exo_pin.gait import implausibilities
 

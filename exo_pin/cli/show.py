@@ -62,6 +62,11 @@ def fixed(value: float, digits: int = 1) -> str:
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
+def plain(text: str) -> str:
+    """The text of a file on one line, without control characters, which a terminal would obey."""
+    return "".join(mark if mark.isprintable() else " " for mark in text)
+
+
 def as_json(facts: Any) -> None:
     """Print one JSON object."""
     print(json.dumps(facts, indent=2))

@@ -165,7 +165,7 @@ def _along(walk: Gait, time: Array, phase: Array) -> Gait:
     strictly = 1e-12 * np.arange(len(phase))  # so that it can be inverted
     grown = np.maximum.accumulate(phase + strictly)
     events = tuple(dataclasses.replace(e, time=float(np.interp(e.time, grown, time))) for e in inside)
-    return Gait(time, q, base=base, events=events, source=walk.source)
+    return Gait(time, q, base=base, events=events, source=walk.source, remarks=walk.remarks)
 
 
 def _even_events(gait: Gait) -> tuple[Event, ...]:

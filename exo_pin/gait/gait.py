@@ -47,6 +47,7 @@ class Gait:
         events: Foot contacts, sorted by time.
         periodic: Whether the walk repeats.
         source: Where the numbers come from, in words.
+        remarks: What reading the file held, corrected or ignored, a plain sentence each.
 
     Raises:
         GaitError: If shapes, time, angles, base or events are unusable; the message says which and where.
@@ -59,6 +60,7 @@ class Gait:
     events: tuple[Event, ...] = ()
     periodic: bool = False
     source: str = ""
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         set_fields(
@@ -68,6 +70,7 @@ class Gait:
             base=None if self.base is None else frozen(self.base, "base"),
             periodic=bool(self.periodic),
             source=str(self.source),
+            remarks=tuple(self.remarks),
         )
         check_time(self.time, self.periodic)
         check_angles(self.q, len(self.time))

@@ -62,6 +62,8 @@ class Markers:
         events: Foot contacts in the file.
         plates: Force plates.
         source: Where the numbers come from, in words.
+        remarks: What reading the file held, corrected or ignored, a plain sentence each; the walk made of the
+            trial has them too.
 
     Raises:
         GaitError: Shapes, time or names are unusable.
@@ -75,6 +77,7 @@ class Markers:
     events: tuple[Event, ...] = ()
     plates: tuple[ForcePlate, ...] = ()
     source: str = ""
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         set_fields(
@@ -133,7 +136,7 @@ class Markers:
             ForcePlate(p.name, p.time, p.force @ R.T, p.point @ R.T, p.moment @ R.T) for p in self.plates
         )
         position = self.position @ R.T
-        return Markers(self.time, self.names, position, "+z", self.angles, self.events, plates, self.source)
+        return replace(self, position=position, up="+z", plates=plates)
 
 
 def to_z_up(up: Vertical) -> Array:

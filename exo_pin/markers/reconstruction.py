@@ -197,4 +197,5 @@ def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen:
     source = f"{trial.source}: markers ({chosen.name}) by least squares on a body scaled to them"
     if stop - start < len(trial):
         source += f", frames {start} to {stop - 1} of {len(trial)}"
-    return robot.to_gait(q, Gait(time, np.zeros((len(time), 12)), events=events, source=source))
+    like = Gait(time, np.zeros((len(time), 12)), events=events, source=source, remarks=trial.remarks)
+    return robot.to_gait(q, like)

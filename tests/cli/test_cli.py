@@ -1,5 +1,6 @@
 """The command line: what people type, what they get, and what happens to bad input."""
 
+import dataclasses
 import json
 import os
 import signal
@@ -15,7 +16,8 @@ import numpy as np
 import pytest
 
 from exo_pin.cli import COMMANDS, main, show
-from exo_pin.formats import load_gait, load_poses
+from exo_pin.formats import load_gait, load_poses, save_gait
+from exo_pin.gait import normative_gait
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -242,3 +244,14 @@ def test_no_window_is_so_narrow_that_a_number_or_a_word_is_cut(capsys, monkeypat
     assert all(word in shown for row in rows for cell in row for word in cell.split(", "))
     assert "-277.25 .. 31.5" in shown
     assert "…" not in shown
+
+
+def test_remarks_on_a_file_are_printed_once_as_notes_and_stand_in_the_json(capsys, tmp_path, monkeypatch):
+    file = tmp_path / "walk.csv"
+    save_gait(normative_gait("free"), file)
+    walk = dataclasses.replace(load_gait(file), remarks=("the hip\x1b[31m was held",))
+    monkeypatch.setattr("exo_pin.formats.load_gait", lambda *_, **__: walk)
+    code, out, err = run(capsys, "info", file, "--json")
+    assert code == 0
+    assert err.count("note: the hip [31m was held") == 1
+    assert json.loads(out)["remarks"] == list(walk.remarks)

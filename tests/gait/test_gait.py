@@ -355,3 +355,9 @@ def test_runs_begin_and_end_where_marks_do():
     assert runs(mask) == [(0, 1), (2, 4), (6, 7)]
     assert runs(~mask) == [(1, 2), (4, 6)]
     assert runs(mask[:0]) == []
+
+
+def test_remarks_on_the_file_stay_with_every_walk_that_is_made_of_it():
+    walk = replace(normative_gait("free"), remarks=("the knee was held",))
+    for made in (walk.resampled(50), walk.mirrored(), walk.slowed(2.0), walk.repeated(2)):
+        assert made.remarks == ("the knee was held",)

@@ -91,6 +91,7 @@ def _to_json(found: _Info) -> dict[str, Any]:
     gait = found.gait
     return {
         "source": gait.source,
+        "remarks": list(gait.remarks),
         "samples": len(gait),
         "duration_s": gait.duration,
         "periodic": gait.periodic,

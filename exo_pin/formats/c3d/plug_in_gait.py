@@ -66,7 +66,7 @@ def model_angles(path: Path, trial: Markers) -> Gait:
         source += f", frames {start} to {stop - 1} of {len(trial)}"
     events = tuple(event for event in trial.events if time[0] <= event.time <= time[-1])
     base = _pelvis(trial, start, stop)
-    return to_gait(path, time, q[start:stop], base, Metadata(events, source=source))
+    return to_gait(path, time, q[start:stop], base, Metadata(events, source=source, remarks=trial.remarks))
 
 
 def joint_moments(path: Path, content: C3dContent, preset: SignPreset | None, mass: float | None) -> Torques:

@@ -32,11 +32,19 @@ class Comment(NamedTuple):
 
 
 class Metadata(NamedTuple):
-    """What the columns of a table do not hold; source is None where the file does not state it."""
+    """What the columns of a table do not hold.
+
+    Attributes:
+        events: Foot contacts.
+        periodic: Whether the walk repeats.
+        source: Where the numbers come from; None where the file does not state it.
+        remarks: What reading the file held, corrected or ignored, a plain sentence each; never written.
+    """
 
     events: tuple[Event, ...] = ()
     periodic: bool = False
     source: str | None = None
+    remarks: tuple[str, ...] = ()
 
 
 def comment_lines(metadata: Metadata) -> list[str]:
@@ -134,14 +142,22 @@ def to_gait(path: Path, time: Array, q: Array, base: Array | None, metadata: Met
         time: `(n,)` [s].
         q: `(n, 12)` joint angles [rad].
         base: `(n, 4, 4)` T_world_pelvis [m], or None.
-        metadata: Events, period and source.
+        metadata: Events, period, source and remarks.
 
     Raises:
         FormatError: The numbers are no walk.
     """
     source = path.name if metadata.source is None else metadata.source
     try:
-        return Gait(time, q, base=base, events=metadata.events, periodic=metadata.periodic, source=source)
+        return Gait(
+            time,
+            q,
+            base=base,
+            events=metadata.events,
+            periodic=metadata.periodic,
+            source=source,
+            remarks=metadata.remarks,
+        )
     except GaitError as error:
         raise FormatError(path, str(error)) from error
 

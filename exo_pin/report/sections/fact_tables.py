@@ -101,6 +101,7 @@ def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, nor
     sources = sorted({event.source or "not stated" for event in gait.events})
     rows = [
         ["source of the walk", gait.source or "not stated"],
+        *(["remark on its file", remark] for remark in gait.remarks),
         ["events", ", ".join(sources) or "none"],
         ["pelvis", "moves as the walk says" if gait.base is not None else "held still"],
         ["velocities and accelerations", rates],

@@ -139,7 +139,9 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
     facts = Facts(
         title=options.title,
         subtitle=_subtitle(gait),
-        notes=tuple(dict.fromkeys((*options.notes, *_support_notes(walk), *faced, *staging.notes))),
+        notes=tuple(
+            dict.fromkeys((*gait.remarks, *options.notes, *_support_notes(walk), *faced, *staging.notes))
+        ),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
