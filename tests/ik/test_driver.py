@@ -1,4 +1,4 @@
-"""The iteration itself: the cost falls, limits hold, it leaves saddles, another optimiser agrees."""
+"""The iteration itself: the cost falls, limits hold, restarts leave saddles, another optimiser agrees."""
 
 import dataclasses
 

@@ -12,7 +12,7 @@ import numpy as np
 from exo_pin.arrays import Array, Mask
 
 _ROUNDING = 1e-12  # of a pivot against its diagonal
-_ROUNDS = 30  # rounds of the active set; a leg of six needs two or three, the rest is cut to the box
+_ROUNDS = 30  # rounds of the active set; a leg of six needs two or three
 
 
 def normal_equations(J: Array, e: Array) -> tuple[Array, Array]:
@@ -64,7 +64,13 @@ def newton_step(
 
 
 def free_joints(b: Array, lower: Array, upper: Array) -> Mask:
-    """The joints that are not pressed against a limit: b, the negative gradient, points inwards there."""
+    """The joints (J, m) or (J,) that are not pressed against a limit.
+
+    Args:
+        b: Negative gradients (J, m) or (J,); at a limit, that of a free joint points inwards.
+        lower: Lower ends of the box, not above zero, of the shape of b.
+        upper: Upper ends of the box, not below zero.
+    """
     return np.asarray(((lower < 0.0) | (b > 0.0)) & ((upper > 0.0) | (b < 0.0)))
 
 
@@ -126,25 +132,25 @@ def _active_set(A: Array, b: Array, lower: Array, upper: Array) -> Array:
     joints = np.arange(len(b)).reshape(-1, *[1] * (b.ndim - 1))
     busy = np.ones(b.shape[1:], dtype=bool)
     for _ in range(_ROUNDS):
-        wish = np.where(held, x, _held_solution(A, b, x, held))
-        share = _share(x, wish - x, lower, upper)
-        x = np.where(busy, np.minimum(np.maximum(x + share * (wish - x), lower), upper), x)
-        held |= ((x <= lower) & (wish < x)) | ((x >= upper) & (wish > x))
-        full = share == 1.0
+        minimiser = np.where(held, x, _held_solution(A, b, x, held))
+        length = _step_length(x, minimiser - x, lower, upper)
+        x = np.where(busy, np.minimum(np.maximum(x + length * (minimiser - x), lower), upper), x)
+        held |= ((x <= lower) & (minimiser < x)) | ((x >= upper) & (minimiser > x))
+        full = length == 1.0
         if not full.any():
             continue
         descent = b - _times(A, x)
-        wrong = held & np.where(x >= upper, descent < 0.0, descent > 0.0) & (upper > lower) & full
-        busy = ~full | wrong.any(axis=0)
+        inward = held & np.where(x >= upper, descent < 0.0, descent > 0.0) & (upper > lower) & full
+        busy = ~full | inward.any(axis=0)
         if not busy.any():
             break
-        worst = np.argmax(np.where(wrong, np.abs(descent), -1.0), axis=0)
-        held &= ~(wrong & (joints == worst))
+        worst = np.argmax(np.where(inward, np.abs(descent), -1.0), axis=0)
+        held &= ~(inward & (joints == worst))
     return x
 
 
-def _share(x: Array, d: Array, lower: Array, upper: Array) -> Array:
-    """The share of the way d from x that stays within the box, at most 1: (m,), or a number."""
+def _step_length(x: Array, d: Array, lower: Array, upper: Array) -> Array:
+    """The largest step length along d from x that stays within the box, at most 1: (m,), or a number."""
     room = np.full(d.shape, np.inf)
     np.divide(np.where(d > 0.0, upper, lower) - x, d, out=room, where=d != 0.0)
     return np.asarray(np.minimum(room.min(axis=0), 1.0))

@@ -111,36 +111,36 @@ def evaluate(arrays: SubtreeArrays, targets: list[WeightedTarget], q: Array) -> 
     )
     for f, target in enumerate(targets):
         own = np.flatnonzero(arrays.moves[f])
-        spin = pose.axes[:, own] * arrays.revolute[own, None]
-        _add_points(sums, arrays, pose, target, f, own, spin)
+        angular = pose.axes[:, own] * arrays.revolute[own, None]
+        _add_points(sums, arrays, pose, target, f, own, angular)
         if target.R is not None:
-            _add_rotation(sums, pose.R[f], target, f, own, spin)
+            _add_rotation(sums, pose.R[f], target, f, own, angular)
     model = sums.gradient, sums.gauss_newton, mirrored(sums.second_order)
     return Evaluation(sums.cost, sums.errors, model)
 
 
-def points_second_order(slide: Array, spin: Array, force: Array, B: Array) -> Array:
+def points_second_order(linear: Array, angular: Array, force: Array, B: Array) -> Array:
     """The second order of weighted points on one frame (J, J), or (J, J, m); see `mirrored`.
 
     Args:
-        slide: Velocity of a reference point of the frame that each joint causes (3, J) or (3, J, m).
-        spin: Angular velocity of the frame that each joint causes, of the same shape.
+        linear: Velocity of a reference point of the frame that each joint causes (3, J) or (3, J, m).
+        angular: Angular velocity of the frame that each joint causes, of the same shape.
         force: Sum of the squared weights times the errors (3,) or (3, m).
         B: Moments of the lever arms from the reference point with them (3, 3) or (3, 3, m).
     """
-    return _dots(spin, _cross(force, slide) - _times(B, spin) + np.trace(B) * spin)
+    return _dots(angular, _cross(force, linear) - _times(B, angular) + np.trace(B) * angular)
 
 
-def rotation_second_order(spin: Array, t: Array, angle: npt.ArrayLike) -> Array:
+def rotation_second_order(angular: Array, t: Array, angle: npt.ArrayLike) -> Array:
     """The second order of a rotation missed by a rotation vector (J, J), or (J, J, m); see `mirrored`.
 
     Args:
-        spin: Angular velocity of the frame that each joint causes (3, J) or (3, J, m).
+        angular: Angular velocity of the frame that each joint causes (3, J) or (3, J, m).
         t: Rotation vector (3,) or (3, m).
         angle: Its length, a number or (m,) [rad].
     """
-    twist = _cross(t, spin)
-    return 0.5 * _dots(spin, twist) - curvature_factor(angle) * _dots(twist, twist)
+    across = _cross(t, angular)
+    return 0.5 * _dots(angular, across) - curvature_factor(angle) * _dots(across, across)
 
 
 def mirrored(A: Array) -> Array:
@@ -157,7 +157,7 @@ def _add_points(
     target: WeightedTarget,
     f: int,
     own: Index,
-    spin: Array,
+    angular: Array,
 ) -> None:
     x = np.einsum("abm,bk->akm", pose.R[f], target.local) + pose.p[f][:, None]
     e = target.p - x
@@ -171,27 +171,27 @@ def _add_points(
     B = (d[:, None] * weighted).sum(axis=2)
     D = (d[:, None] * (target.weight * d)).sum(axis=2)
     torque = np.stack([B[1, 2] - B[2, 1], B[2, 0] - B[0, 2], B[0, 1] - B[1, 0]])
-    slide = np.where(
-        arrays.revolute[own, None], _cross(spin, centre[:, None] - pose.points[:, own]), pose.axes[:, own]
+    linear = np.where(
+        arrays.revolute[own, None], _cross(angular, centre[:, None] - pose.points[:, own]), pose.axes[:, own]
     )
-    sums.gradient[own] -= (slide * force[:, None]).sum(axis=0) + (spin * torque[:, None]).sum(axis=0)
+    sums.gradient[own] -= (linear * force[:, None]).sum(axis=0) + (angular * torque[:, None]).sum(axis=0)
     square = np.ix_(own, own)
-    inertia = np.trace(D) * spin - times(D, spin)
-    sums.gauss_newton[square] += _dots(W * slide, slide) + _dots(spin, inertia)
-    sums.second_order[square] += points_second_order(slide, spin, force, B)
+    inertia = np.trace(D) * angular - times(D, angular)
+    sums.gauss_newton[square] += _dots(W * linear, linear) + _dots(angular, inertia)
+    sums.second_order[square] += points_second_order(linear, angular, force, B)
 
 
-def _add_rotation(sums: _Sums, R: Array, target: WeightedTarget, f: int, own: Index, spin: Array) -> None:
+def _add_rotation(sums: _Sums, R: Array, target: WeightedTarget, f: int, own: Index, angular: Array) -> None:
     assert target.R is not None
     t = rotation_vector([list(row) for row in R], [list(row) for row in target.R])
     angle = np.sqrt((t * t).sum(axis=0))
     sums.errors[1, f] = angle
     weight = target.rotation_weight
     sums.cost[:] += weight * angle**2
-    sums.gradient[own] -= weight * (spin * t[:, None]).sum(axis=0)
+    sums.gradient[own] -= weight * (angular * t[:, None]).sum(axis=0)
     square = np.ix_(own, own)
-    sums.gauss_newton[square] += weight * _dots(spin, spin)
-    sums.second_order[square] += weight * rotation_second_order(spin, t, angle)
+    sums.gauss_newton[square] += weight * _dots(angular, angular)
+    sums.second_order[square] += weight * rotation_second_order(angular, t, angle)
 
 
 def _cross(v: Array, b: Array) -> Array:

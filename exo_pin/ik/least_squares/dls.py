@@ -19,8 +19,7 @@ from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal, Target
 from exo_pin.robot import LegAxes, Robot, Subtree
 
-SETTLED = Dls(tolerance=1e-10)
-"""Settings of a compromise: no target is expected to be met."""
+_COMPROMISE = Dls(tolerance=1e-10)  # no target is expected to be met
 _ROUNDING, _ROUGH = 1e-13, 1e-6  # errors between these are worth a refinement [m, rad]
 
 
@@ -137,7 +136,7 @@ def settle(
     upper: Array,
     *,
     base: Array,
-    settings: Dls = SETTLED,
+    settings: Dls = _COMPROMISE,
 ) -> Array:
     """The compromise that each sample's seed leads to, within limits of each sample's own.
 

@@ -1,12 +1,12 @@
 """Levenberg-Marquardt iteration with restarts: the one loop that minimises every cost of this room.
 
-A kernel knows a cost, its derivatives and its limits. The loop decides when a step is taken, how much the
-next one is damped and when a sample has ended (Marquardt 1963; Nocedal and Wright, Numerical Optimization,
-section 10.3): a step that does not lower the cost is taken back and damped more, one that does is damped
-less. The damping follows the residual (Sugihara 2011, "Solvability-unconcerned inverse kinematics by the
-Levenberg-Marquardt method", IEEE T-RO 27(5)): it vanishes at the target, so that convergence is quadratic,
-and stays where the target is out of reach, so that the step remains bounded near singular poses (Nakamura
-and Hanafusa 1986).
+A kernel computes a cost, its derivatives and the step within its limits; the loop accepts or rejects the
+step, sets the damping and ends the iteration (Marquardt 1963; Nocedal and Wright, Numerical Optimization,
+section 10.3). A step that does not lower the cost is taken back and the next one damped more; after a step
+that does, the next one is damped less. The damping follows the residual (Sugihara 2011,
+"Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE T-RO 27(5)): it vanishes
+at the target, so that convergence is quadratic, and stays where the target is out of reach, so that the step
+remains bounded near singular poses (Nakamura and Hanafusa 1986).
 
 The samples iterate together in a pool, which they leave when they have ended.
 """
@@ -123,7 +123,13 @@ class _Pool:
 
     @classmethod
     def of(cls, kernel: Kernel, seed: Array, part: slice) -> _Pool:
-        """Samples at their seeds."""
+        """Samples at their seeds.
+
+        Args:
+            kernel: The cost of all samples.
+            seed: Where they start (nq, n).
+            part: Which of them enter.
+        """
         who = np.arange(seed.shape[1])[part]
         if len(who) < seed.shape[1]:
             kernel, seed = kernel.only(who), seed[:, part]
@@ -163,8 +169,8 @@ class _Pool:
             self.factor[last] = np.inf
 
     def _accept(self, better: Mask, trial: Array, there: Evaluation) -> None:
-        """Move the samples whose step lowered the cost. (`count_nonzero` costs a fifth of `all` or `any`.)"""
-        count = np.count_nonzero(better)
+        """Move the samples whose step lowered the cost."""
+        count = np.count_nonzero(better)  # a fifth of what `all` and `any` cost for a single sample
         if count == len(better):
             self.q, self.now = trial, there
         elif count:

@@ -1,4 +1,4 @@
-"""What the iteration needs to know of a cost: its value, its derivatives, its limits, its numbers.
+"""What a cost offers to the iteration: its value, its derivatives, its limits and its schedule.
 
 Samples are independent of each other and stand on the last axis of every array.
 """
@@ -61,8 +61,8 @@ class Schedule:
         to_minimum: Whether the iteration goes on where all targets are met already.
         untaken: A step shorter than this is not taken any more.
         last: A step shorter than this is the last.
-        rounded: A step shorter than this is the last if it does not lower the cost: the rounding of the cost
-            hides what is left.
+        rounded: A step shorter than this is the last if it does not lower the cost: what is left is
+            below the rounding of the cost.
         decline: A step that lowers the cost by less than this share of it is the last.
     """
 
@@ -106,7 +106,7 @@ class Kernel(Protocol):
 
 
 class RestartableKernel(Kernel, Protocol):
-    """A kernel that knows where else its samples may start."""
+    """A kernel whose samples may start again elsewhere."""
 
     def restart(self, i: int, q: Array) -> Array:
         """Where samples that got stuck at q (nq, n) start for the i-th time again (nq, n), i = 0, 1, ..."""

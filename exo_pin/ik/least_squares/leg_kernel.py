@@ -84,7 +84,13 @@ class LegKernel:
         return Evaluation(_squares(e), errors[:, None], (e, J))
 
     def step(self, q: Array, now: Evaluation, damping: Array) -> Array:
-        """The damped Gauss-Newton step (6, n) within the limits; arguments as in `Kernel.step`."""
+        """The damped Gauss-Newton step (6, n) within the limits.
+
+        Args:
+            q: Angles (6, n).
+            now: The cost there.
+            damping: Added to the diagonal of the Hessian (n,).
+        """
         e, J = now.model
         A, b = normal_equations(J, e)
         A[range(6), range(6)] += damping + _FLOOR

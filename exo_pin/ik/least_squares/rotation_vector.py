@@ -14,12 +14,11 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array, Index
 
-Rotation = Sequence[Sequence[Array | float]]
-"""Rotation matrices entry by entry, `R[i][j]` an array (m,) or a number."""
+_Rotation = Sequence[Sequence[Array | float]]  # entry by entry, `R[i][j]` an array (m,) or a number
 
 
-def rotation_vector(R: Rotation, S: Rotation) -> Array:
-    """The rotation vectors (3, m) in world axes that carry R to S."""
+def rotation_vector(R: _Rotation, S: _Rotation) -> Array:
+    """The rotation vectors (3, m) in world axes that carry R to S, each given entry by entry."""
     v = np.zeros((3, *np.shape(S[0][0])))
     for i in range(3):
         a, b = (i + 1) % 3, (i + 2) % 3
@@ -47,7 +46,7 @@ def curvature_factor(angle: npt.ArrayLike) -> Array:
     return np.asarray((1.0 - half / np.tan(half)) / (4.0 * half * half))
 
 
-def _near_half_turn(R: Rotation, S: Rotation, where: Index) -> Array:
+def _near_half_turn(R: _Rotation, S: _Rotation, where: Index) -> Array:
     """Rotation vectors of nearly 180 degrees, where the skew part of the rotation vanishes.
 
     They are rare, so that one sample at a time is quick enough.

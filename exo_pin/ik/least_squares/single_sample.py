@@ -87,7 +87,13 @@ class SampleKernel:
         return Evaluation(np.array([cost]), errors[..., None], tuple(model))
 
     def step(self, q: Array, now: Evaluation, damping: Array) -> Array:
-        """The damped step (nv, 1) within the limits; arguments as in `Kernel.step`."""
+        """The damped step (nv, 1) within the limits.
+
+        Args:
+            q: The configuration (nq, 1).
+            now: The cost there.
+            damping: Added to the diagonal of the Hessian (1,).
+        """
         e, J, *more = (x[..., 0] for x in now.model)
         A, b, box = J.T @ J, J.T @ e, self.subtree.box(q[:, 0])
         added = damping[0] + self.damping**2 + _FLOOR

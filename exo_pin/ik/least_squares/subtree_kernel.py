@@ -57,7 +57,13 @@ class SubtreeKernel:
         return evaluate(self.arrays, self.targets, q)
 
     def step(self, q: Array, now: Evaluation, damping: Array) -> Array:
-        """The damped Newton step (J, n) within the limits; arguments as in `Kernel.step`."""
+        """The damped Newton step (J, n) within the limits.
+
+        Args:
+            q: Configurations (J, n).
+            now: The cost there.
+            damping: Added to the diagonal of the Hessian (n,).
+        """
         gradient, gauss_newton, second_order = now.model
         hessian = gauss_newton, second_order
         return newton_step(-gradient, *hessian, damping + _FLOOR, self.lower - q, self.upper - q)

@@ -120,7 +120,13 @@ class _Motion:
         return Evaluation(np.array([cost]), np.full((2, 1, 1), np.nan), model)
 
     def step(self, q: Array, now: Evaluation, damping: Array) -> Array:
-        """The damped Newton step (J n, 1) of all samples together, cut at the joint limits."""
+        """The damped Newton step (J n, 1) of all samples together, cut at the joint limits.
+
+        Args:
+            q: Coordinates (J n, 1).
+            now: The cost there.
+            damping: Added to the diagonal of the Hessian (1,).
+        """
         gradient, gauss_newton, second_order, excess = (part[..., 0] for part in now.model)
         at = self._joints(q)
         b = self.penalty * _balance(excess, at.shape[1]) - gradient
