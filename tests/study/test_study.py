@@ -209,8 +209,8 @@ def test_every_recording_of_a_folder_is_studied_and_bad_ones_are_reported(walks)
 
 
 def test_an_unexpected_error_costs_its_recording_only(walks, monkeypatch):
-    def broken(path, **_):
-        if path.endswith("good.npz"):
+    def broken(file, **_):
+        if file.path.name.endswith("good.npz"):
             raise IndexError("a bug")
         return normative_gait()
 
