@@ -4,7 +4,7 @@ from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
-from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd
+from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd, speed_named
 from exo_pin.gait.plausibility import implausibilities
 from exo_pin.gait.reference_values import Norm, against_normal, normal
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
@@ -33,6 +33,7 @@ __all__ = [
     "normative_sd",
     "side_with_more_strides",
     "spatiotemporal",
+    "speed_named",
     "stance_times",
     "strides",
     "zeni",

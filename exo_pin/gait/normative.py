@@ -17,14 +17,26 @@ from exo_pin.gait.schwartz2008_sd import SD_ANGLES, SD_ANKLE_INVERSION
 from exo_pin.physics import GRAVITY
 
 SPEEDS: tuple[Speed, ...] = ("very_slow", "slow", "free", "fast", "very_fast")
-"""`very_slow slow free fast very_fast`: as the children of the source were asked to walk."""
+"""Speeds as the children of the source were asked to walk."""
 
 _SOURCE = "Schwartz 2008"
 _LEG_LENGTHS = (0.1, 2.5)
 """Shortest and longest leg [m] that a stride time is given for: what a `Body` can be."""
 
 
-def normative_gait(speed: str = "free", *, leg_length: float | None = None, samples: int = 100) -> Gait:
+def speed_named(name: str) -> Speed:
+    """The speed of that name.
+
+    Raises:
+        UnknownNameError: There is no such speed.
+    """
+    for speed in SPEEDS:
+        if speed == name:
+            return speed
+    raise UnknownNameError("speed", name, SPEEDS)
+
+
+def normative_gait(speed: Speed = "free", *, leg_length: float | None = None, samples: int = 100) -> Gait:
     """The mean walk of typically developing children, with the left heel strike at time 0.
 
     Angles, contact events and cadence are those of Schwartz, Rozumalski and Trost, J Biomech 41 (2008)
@@ -51,8 +63,7 @@ def normative_gait(speed: str = "free", *, leg_length: float | None = None, samp
         UnknownNameError: If there is no such speed.
         GaitError: If the leg length is implausible or there are too few samples.
     """
-    if speed not in MEAN_ANGLES:
-        raise UnknownNameError("speed", speed, SPEEDS)
+    speed = speed_named(speed)
     length = Body.from_stature().leg_length if leg_length is None else leg_length
     if not _LEG_LENGTHS[0] <= length <= _LEG_LENGTHS[1]:
         raise GaitError(f"leg_length = {length} m: expected {_LEG_LENGTHS[0]} to {_LEG_LENGTHS[1]} m")
@@ -70,7 +81,7 @@ def normative_gait(speed: str = "free", *, leg_length: float | None = None, samp
     )
 
 
-def normative_sd(speed: str = "free", *, samples: int = 100) -> Array:
+def normative_sd(speed: Speed = "free", *, samples: int = 100) -> Array:
     """Standard deviation of the joint angles between the children of `normative_gait`.
 
     Source and weak channels as there. Four Fourier harmonics follow the published spreads of five speeds
@@ -88,8 +99,7 @@ def normative_sd(speed: str = "free", *, samples: int = 100) -> Array:
         UnknownNameError: If there is no such speed.
         GaitError: If there is no sample.
     """
-    if speed not in MEAN_ANGLES:
-        raise UnknownNameError("speed", speed, SPEEDS)
+    speed = speed_named(speed)
     if samples < 1:
         raise GaitError(f"samples = {samples}: at least 1 is accepted")
     curves = {**SD_ANGLES[speed], "ankle_inversion": SD_ANKLE_INVERSION}
@@ -106,13 +116,13 @@ def _series(coefficients: tuple[float, ...], phase: Array) -> Array:
     return np.asarray(mean + np.cos(angle) @ cosines + np.sin(angle) @ sines)
 
 
-def _leg(speed: str, phase: Array) -> Array:
+def _leg(speed: Speed, phase: Array) -> Array:
     """`(n, 6)` joint angles of a leg that strikes the ground at phase 0."""
     curves = {**MEAN_ANGLES[speed], "ankle_inversion": MEAN_ANKLE_INVERSION}
     return np.stack([_series(curves[movement], phase) for movement in MOVEMENTS], axis=1)
 
 
-def _pelvis(speed: str, phase: Array, height: float) -> Array:
+def _pelvis(speed: Speed, phase: Array, height: float) -> Array:
     """`(n, 4, 4)` poses: tilt forward about y, then left side up about x, then left side forward about -z."""
     tilt, obliquity, rotation = (
         _series(MEAN_ANGLES[speed][f"pelvis_{name}"], phase) for name in ("tilt", "obliquity", "rotation")
@@ -133,7 +143,7 @@ def _turns(axis: int, angle: Array) -> Array:
     return R
 
 
-def _events(speed: str, stride: float) -> tuple[Event, ...]:
+def _events(speed: Speed, stride: float) -> tuple[Event, ...]:
     at = TIMING[speed]
     moments: tuple[tuple[float, EventKind, Side], ...] = (
         (0.0, "heel_strike", "left"),

@@ -17,7 +17,7 @@ from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import load_gait, open_trial
-from exo_pin.gait import Gait, implausibilities, normative_gait
+from exo_pin.gait import Gait, implausibilities, normative_gait, speed_named
 from exo_pin.study.fingerprint import code_digest, fingerprint, plain
 from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
 
@@ -108,7 +108,7 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     """The walk and the body that walks."""
     if not case.path:
         body = case.body or Body.from_stature()
-        return normative_gait(case.gait, leg_length=body.leg_length), body
+        return normative_gait(speed_named(case.gait), leg_length=body.leg_length), body
     file = open_trial(case.path)
     if file.needs_inverse_kinematics:
         from exo_pin.markers import load_walk

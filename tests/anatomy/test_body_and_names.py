@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES, Body
-from exo_pin.anatomy.hip_cardan_angles import reorder
+from exo_pin.anatomy.hip_cardan_angles import hip_angles, reorder
 from exo_pin.anatomy.inertia import link_inertias
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
@@ -185,3 +185,24 @@ def test_reordered_hip_angles_make_the_same_rotation(side, angles):
     assert humanoid == pytest.approx(clinical, abs=1e-12)
     back = reorder((a, b, c), side, source="yaw_roll_pitch", target="clinical")
     assert back == pytest.approx(angles, abs=1e-9)  # cos(1.2) costs two digits
+
+
+@pytest.mark.parametrize(("side", "medial"), [("left", -1.0), ("right", 1.0)])
+@pytest.mark.parametrize("angle", [0.3, -0.2])
+def test_positive_hip_angles_flex_adduct_and_rotate_inwards(side, medial, angle):
+    """The thigh goes forward, the thigh goes to the other leg, the toes turn to the other leg."""
+    c, s = np.cos(angle), np.sin(angle)
+    m = medial * s  # +y is the left: towards it the right leg goes inwards
+    turns = {
+        0: [[c, 0, -s], [0, 1, 0], [s, 0, c]],
+        1: [[1, 0, 0], [0, c, -m], [0, m, c]],
+        2: [[c, -m, 0], [m, c, 0], [0, 0, 1]],
+    }
+    down, forward = np.array([0.0, 0.0, -1.0]), np.array([1.0, 0.0, 0.0])
+    assert (np.array(turns[0]) @ down)[0] == pytest.approx(s)
+    assert (np.array(turns[1]) @ down)[1] == pytest.approx(m)
+    assert (np.array(turns[2]) @ forward)[1] == pytest.approx(m)
+    for column, R in turns.items():
+        expected = np.zeros(3)
+        expected[column] = angle
+        assert hip_angles(R, side) == pytest.approx(expected, abs=ROUNDING)
