@@ -13,6 +13,7 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.cli import main
 from exo_pin.compare import Conditions, compare, compare_joints, comparison_table
 from exo_pin.devices import DEVICES, Device, both
+from exo_pin.formats import save_gait
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.report.document import blocks
 from exo_pin.report.draw.cycle_axis import cycle_axis
@@ -30,7 +31,7 @@ def compared():
 
 @pytest.fixture(scope="module")
 def document(compared):
-    found = compare_joints(GAIT.resampled(17))
+    found = compare_joints(GAIT.resampled(10))
     return report.comparison(
         compared, name=EVIL, speeds={EVIL: compared, "fast": compared}, worth=found, choices={EVIL: EVIL}
     )
@@ -161,8 +162,9 @@ def test_a_walk_without_events_still_has_a_page():
 
 
 def test_the_command_writes_the_page(tmp_path, capsys):
-    page = tmp_path / "r.html"
-    assert main(["compare", "slow", "--devices", "exo12", "hk4", "-o", str(page)]) == 0
+    page, walk = tmp_path / "r.html", tmp_path / "walk.csv"
+    save_gait(GAIT.resampled(10), walk)  # few samples: the choices of joints are 64 optimisations
+    assert main(["compare", str(walk), "--devices", "exo12", "hk4", "-o", str(page)]) == 0
     text = page.read_text()
     assert "At the five speeds" in text
     assert "very<" in text  # the heading of a column
