@@ -197,5 +197,9 @@ def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen:
     source = f"{trial.source}: markers ({chosen.name}) by least squares on a body scaled to them"
     if stop - start < len(trial):
         source += f", frames {start} to {stop - 1} of {len(trial)}"
-    like = Gait(time, np.zeros((len(time), 12)), events=events, source=source, remarks=trial.remarks)
+    remarks = trial.remarks
+    if len(events) < len(trial.events):
+        left = len(trial.events) - len(events)
+        remarks += (f"{left} of {len(trial.events)} events lie in frames without markers and are left out",)
+    like = Gait(time, np.zeros((len(time), 12)), events=events, source=source, remarks=remarks)
     return robot.to_gait(q, like)
