@@ -72,7 +72,7 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = _THRESH
 
 
 def _shortest(start: int, stop: int, n: int) -> float:
-    return _SHORTEST_CONTACT if 0 < start and stop < n else _SHORTEST_CUT_CONTACT
+    return _SHORTEST_CONTACT if start > 0 and stop < n else _SHORTEST_CUT_CONTACT
 
 
 def _joined(time: Array, spans: list[tuple[int, int]]) -> list[tuple[int, int]]:

@@ -32,7 +32,7 @@ _CLEARLY = 0.5
 """The other foot must be at least this many times further away, else the foot on the plate is not known."""
 
 _SHARED = 0.05
-"""A force that acts so long [s] under the other foot is not one foot's alone."""
+"""A force that acts so long [s] under the other foot, or away from the foot, is not one foot's alone."""
 
 _LOADED = 0.1
 """Part of a contact's largest force from which on its centre of pressure is used: with less it wanders."""
@@ -150,9 +150,9 @@ def _whose(
     mine, other = away[nearest], away[1 - nearest]
     if np.median(mine) > _FARTHEST:
         return None, "no foot is there"
-    under_other = (other <= _FARTHEST) & (other < _CLEARLY * mine)
-    if step * under_other.sum() >= _SHARED:
-        return None, "both feet are on it"
+    others = (mine > _FARTHEST) | ((other <= _FARTHEST) & (other < _CLEARLY * mine))
+    if step * others.sum() >= _SHARED:
+        return None, "both feet load it"
     if np.median(mine) > _CLEARLY * np.median(other):
         return None, "either foot could be the one on it"
     return SIDES[nearest], ""
