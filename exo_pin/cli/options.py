@@ -74,7 +74,7 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
         UnknownNameError: There is no such speed.
     """
     if name in SPEEDS and not Path(name).exists():
-        if any(options.values()):
+        if any(options.values()) or (files and files.length_unit):
             raise DescriptionError(
                 f"{name} is a normal walk; --preset, --map, --units and --model are for files"
             )

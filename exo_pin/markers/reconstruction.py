@@ -123,6 +123,8 @@ def reconstruct(
         GaitError: Markers are missing, or never seen; the message says which.
         UnknownNameError: There is no such marker set.
     """
+    if len(trial) < 2:
+        raise GaitError("one frame is a posture, no walk; it can be the standing trial (--static) of another")
     chosen, paths, moved, filled = _paths(trial, markers)
     calibration = paths if static is None else _paths(static, chosen.name)[1]
     shared = {name: path for name, path in paths.items() if name in calibration}
