@@ -27,6 +27,7 @@ PassiveJoints = Literal["held", "released"]
 SupportStyle = Literal["carried", "still"]
 """How the balance support moves the pelvis in a picture: with the walk, or not at all."""
 AngleUnit = Literal["deg", "rad"]
+LengthUnit = Literal["mm", "cm", "m"]
 Vertical = Literal["+x", "+y", "+z", "-x", "-y", "-z"]
 """The axis of a laboratory that points up."""
 PelvisRotation = Literal["tilt", "list", "rotation"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.names import LengthUnit, Sex
 
 if TYPE_CHECKING:
     from exo_pin.formats import Content, TrialFile
@@ -13,9 +13,14 @@ if TYPE_CHECKING:
 
 
 class OpenedFiles:
-    """Trial files by path; a command has one in its arguments."""
+    """Trial files by path; a command has one in its arguments.
+
+    Attributes:
+        length_unit: Of the points of C3D files, as the user states it; None: as the file does.
+    """
 
     def __init__(self) -> None:
+        self.length_unit: LengthUnit | None = None
         self._files: dict[Path, TrialFile] = {}
         self._walks: dict[tuple[object, ...], Reconstruction] = {}
 
@@ -25,7 +30,8 @@ class OpenedFiles:
 
         path = Path(path)
         if path not in self._files:
-            self._files[path] = open_trial(path, content)
+            file = open_trial(path, content)
+            self._files[path] = file.with_length_unit(self.length_unit) if self.length_unit else file
         return self._files[path]
 
     def reconstruct(

@@ -49,9 +49,9 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
         walk = load(args.gait, body, args.files, **options, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {show.plain(walk.source)}", file=sys.stderr)
+    walk = plate_options.with_plate_events(args, body, walk)
     for remark in walk.remarks:
         print(f"note: {show.plain(remark)}", file=sys.stderr)
-    walk = plate_options.with_plate_events(args, body, walk)
     from exo_pin.gait import implausibilities
 
     for reason in (*implausibilities(walk), *trials.doubts(args)):
@@ -74,7 +74,7 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
         UnknownNameError: There is no such speed.
     """
     if name in SPEEDS and not Path(name).exists():
-        if any(options.values()):
+        if any(options.values()) or (files and files.length_unit):
             raise DescriptionError(
                 f"{name} is a normal walk; --preset, --map, --units and --model are for files"
             )

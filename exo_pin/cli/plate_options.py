@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,10 +47,15 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
     if walk.periodic:
         raise FormatError(path, f"measured on a trial, but {args.gait} is one cycle that repeats")
     try:
-        return with_plates(load_robot(body), walk, load_forces(args.files.open(path, "forces")))
+        plates = load_forces(args.files.open(path, "forces"))
     except FormatError:
-        raise
+        if args.forces:
+            raise
+        return walk  # a file whose unit of length is not known has no plates
+    try:
+        return with_plates(load_robot(body), walk, plates) if plates or args.forces else walk
     except GaitError as error:
         if args.forces:
             raise FormatError(path, str(error)) from error
-        return walk  # its plates hold nothing of these feet
+        remark = f"its force plates give no events: {error}"
+        return dataclasses.replace(walk, remarks=(*walk.remarks, remark))

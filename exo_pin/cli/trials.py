@@ -38,7 +38,12 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="a table's column is this joint, or `time`; --map=-COLUMN=JOINT turns the sign, a number as "
         "COLUMN holds the joint there; of a marker trial: MARKER=NAME, a marker's name in its set",
     )
-    group.add_argument("--units", choices=("deg", "rad"), help="of angles, where the file does not tell")
+    group.add_argument(
+        "--units",
+        action=_Units,
+        choices=("deg", "rad", "mm", "cm", "m"),
+        help="of angles, or of lengths in a C3D file, where the file does not tell; repeat for both",
+    )
     group.add_argument(
         "--model",
         metavar="OSIM",
@@ -52,6 +57,18 @@ def add(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
     plate_options.add(group)
+
+
+class _Units(argparse.Action):
+    """A unit of angles is an option of its own, one of lengths belongs to the files that are opened."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, args: argparse.Namespace, values: Any, option: Any = None
+    ) -> None:
+        if values in ("deg", "rad"):
+            args.units = values
+        else:
+            args.files.length_unit = values
 
 
 def mapping(args: argparse.Namespace) -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from exo_pin.anatomy.names import SignPreset
+from exo_pin.anatomy.names import LengthUnit, SignPreset
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.gait import Gait
@@ -30,6 +30,14 @@ class TrialFile:
     def needs_inverse_kinematics(self) -> bool:
         """Whether the file holds markers and no joint angles: `exo_pin.markers.load_walk` makes its walk."""
         return False
+
+    def with_length_unit(self, unit: LengthUnit) -> TrialFile:
+        """The same content, its lengths in a unit that the user states.
+
+        Raises:
+            FormatError: The format leaves no choice.
+        """
+        raise FormatError(self.path, f"a unit of length ({unit}) is for C3D files; this file tells its own")
 
     def gait(self, options: ReadOptions) -> Gait:
         """The walk by its joint angles.

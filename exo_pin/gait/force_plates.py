@@ -20,6 +20,10 @@ _SHORTEST_CONTACT = 0.05
 """A contact, or a gap between contacts, that is shorter [s] is noise of the plate."""
 
 
+_SHORTEST_CUT_CONTACT = 0.02
+"""Of a contact that the recording's start or end cuts off [s]: its rest is not known."""
+
+
 class Contact(NamedTuple):
     """One contact with a plate; None where it began before or ended after the recording.
 
@@ -55,7 +59,7 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = _THRESH
     if force.shape != t.shape or not np.isfinite(force).all():
         raise GaitError(f"vertical force: expected finite numbers ({len(t)},) [N], not {force.shape}")
     loaded = _joined(t, runs(force > threshold))
-    loaded = [run for run in loaded if t[run[1] - 1] - t[run[0]] >= _SHORTEST_CONTACT]
+    loaded = [run for run in loaded if t[run[1] - 1] - t[run[0]] >= _shortest(*run, len(t))]
     return tuple(
         Contact(
             _crossing(t, force, start, threshold) if start else None,
@@ -65,6 +69,10 @@ def contacts(time: ArrayLike, vertical: ArrayLike, *, threshold: float = _THRESH
         )
         for start, stop in loaded
     )
+
+
+def _shortest(start: int, stop: int, n: int) -> float:
+    return _SHORTEST_CONTACT if start > 0 and stop < n else _SHORTEST_CUT_CONTACT
 
 
 def _joined(time: Array, spans: list[tuple[int, int]]) -> list[tuple[int, int]]:

@@ -54,7 +54,8 @@ class Markers:
     """Paths of markers in space.
 
     Attributes:
-        time: `(n,)` strictly increasing [s]; the first frame need not be at 0.
+        time: `(n,)` strictly increasing [s]; the first frame need not be at 0. One frame is a posture, which
+            a body can be scaled from.
         names: The k markers.
         position: `(n, k, 3)` [m]; NaN where a marker was not seen.
         up: Which of the laboratory's axes points up, or "" where the file does not state it.
@@ -87,7 +88,8 @@ class Markers:
             position=frozen(self.position, "position"),
             angles=MappingProxyType({name: frozen(values, name) for name, values in self.angles.items()}),
         )
-        check_time(self.time, periodic=False)
+        if self.time.shape != (1,):  # a standing trial may be one frame
+            check_time(self.time, periodic=False)
         n, k = len(self.time), len(self.names)
         if self.position.shape != (n, k, 3):
             raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,11 +31,29 @@ _MOVED = ", set by the plates"
 _CLEARLY = 0.5
 """The other foot must be at least this many times further away, else the foot on the plate is not known."""
 
+_SHARED = 0.05
+"""A force that acts so long [s] under the other foot, or away from the foot, is not one foot's alone."""
+
+_LOADED = 0.1
+"""Part of a contact's largest force from which on its centre of pressure is used: with less it wanders."""
+
+
+class _PlateEvents(NamedTuple):
+    """What force plates measured of a walk.
+
+    Attributes:
+        events: Sorted by time.
+        remarks: Contacts that give no event and why, a sentence each.
+    """
+
+    events: tuple[Event, ...]
+    remarks: tuple[str, ...]
+
 
 def plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tuple[Event, ...]:
     """Heel strikes and toe-offs from force plates, z up; each contact belongs to the foot above it.
 
-    A contact that could be either foot's, or nobody's, gives no event.
+    A contact that could be either foot's, that two feet share, or nobody's, gives no event.
 
     Args:
         robot: The robot that walks.
@@ -44,20 +63,28 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tupl
     Raises:
         GaitError: The gait does not move in the world, or no contact has a foot.
     """
+    return _plate_events(robot, gait, forces).events
+
+
+def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _PlateEvents:
+    """Events and what gives none; errors as of `plate_events`."""
     if gait.base is None:
         raise GaitError("the pelvis does not move in the world, so no foot can be found on a force plate")
     soles = sole_points(robot, gait).mean(axis=2)
-    found = []
+    found, remarks = list[Event](), list[str]()
     for plate in forces:
         for contact in force_plates.contacts(plate.time, plate.force[:, 2]):
-            side = _whose(gait.time, soles, plate, contact)
+            side, why = _whose(gait.time, soles, plate, contact)
+            if why:
+                start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
+                remarks.append(f"no event by {plate.name}, {start:.2f} .. {stop:.2f} s: {why}")
             times: dict[EventKind, float | None] = {"heel_strike": contact.strike, "toe_off": contact.off}
             for kind, t in times.items():
                 if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
                     found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
     if not found:
-        raise GaitError("no contact of a foot with a force plate was found")
-    return tuple(sorted(found, key=lambda event: event.time))
+        raise GaitError("; ".join(("no contact of a foot with a force plate was found", *remarks)))
+    return _PlateEvents(tuple(sorted(found, key=lambda event: event.time)), tuple(remarks))
 
 
 def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
@@ -76,7 +103,8 @@ def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
     Raises:
         GaitError: As `plate_events`.
     """
-    measured = plate_events(robot, gait, forces)
+    measured, remarks = _plate_events(robot, gait, forces)
+    gait = dataclasses.replace(gait, remarks=(*gait.remarks, *remarks))
     try:
         known = with_events(robot, gait).events
     except GaitError:
@@ -102,18 +130,29 @@ def _same(one: Event, other: Event) -> bool:
     return (one.kind, one.side) == (other.kind, other.side) and abs(one.time - other.time) < _SAME_CONTACT
 
 
-def _whose(time: Array, soles: Array, plate: ForcePlate, contact: force_plates.Contact) -> Side | None:
-    """The side of the foot that is nearest to the force all the time, or None where that is not clear."""
+def _whose(
+    time: Array, soles: Array, plate: ForcePlate, contact: force_plates.Contact
+) -> tuple[Side | None, str]:
+    """The side of the foot that is nearest to the force all the time; or None, and why."""
     rows = slice(contact.start, contact.stop)
-    t, point = plate.time[rows], plate.point[rows, :2]
-    seen = (t >= time[0]) & (t <= time[-1])
+    t, point, force = plate.time[rows], plate.point[rows, :2], plate.force[rows, 2]
+    seen = (t >= time[0]) & (t <= time[-1]) & np.isfinite(point).all(axis=1)
+    seen &= force >= _LOADED * np.nanmax(force)  # a small force acts at no certain point
     if not seen.any():
-        return None
-    away = np.empty(len(SIDES))
+        return None, ""  # outside the walk
+    away = np.empty((len(SIDES), int(seen.sum())))
     for k in range(len(SIDES)):
         path = np.stack([np.interp(t[seen], time, soles[:, k, axis]) for axis in range(2)], axis=1)
-        away[k] = np.median(np.linalg.norm(path - point[seen], axis=1))
-    nearest = int(away.argmin())
-    if away[nearest] > _FARTHEST or away[nearest] > _CLEARLY * away[1 - nearest]:
-        return None
-    return SIDES[nearest]
+        away[k] = np.linalg.norm(path - point[seen], axis=1)
+    step = float(np.median(np.diff(plate.time)))
+    left, right = np.median(away, axis=1)
+    nearest = int(right < left)
+    mine, other = away[nearest], away[1 - nearest]
+    if np.median(mine) > _FARTHEST:
+        return None, "no foot is there"
+    others = (mine > _FARTHEST) | ((other <= _FARTHEST) & (other < _CLEARLY * mine))
+    if step * others.sum() >= _SHARED:
+        return None, "both feet load it"
+    if np.median(mine) > _CLEARLY * np.median(other):
+        return None, "either foot could be the one on it"
+    return SIDES[nearest], ""

@@ -123,6 +123,8 @@ def reconstruct(
         GaitError: Markers are missing, or never seen; the message says which.
         UnknownNameError: There is no such marker set.
     """
+    if len(trial) < 2:
+        raise GaitError("one frame is a posture, no walk; it can be the standing trial (--static) of another")
     chosen, paths, moved, filled = _paths(trial, markers)
     calibration = paths if static is None else _paths(static, chosen.name)[1]
     shared = {name: path for name, path in paths.items() if name in calibration}
@@ -197,5 +199,9 @@ def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen:
     source = f"{trial.source}: markers ({chosen.name}) by least squares on a body scaled to them"
     if stop - start < len(trial):
         source += f", frames {start} to {stop - 1} of {len(trial)}"
-    like = Gait(time, np.zeros((len(time), 12)), events=events, source=source, remarks=trial.remarks)
+    remarks = trial.remarks
+    if len(events) < len(trial.events):
+        left = len(trial.events) - len(events)
+        remarks += (f"{left} of {len(trial.events)} events lie in frames without markers and are left out",)
+    like = Gait(time, np.zeros((len(time), 12)), events=events, source=source, remarks=remarks)
     return robot.to_gait(q, like)

@@ -107,7 +107,7 @@ def damaged(path, tmp_path, change):
         (lambda d: d.__setitem__(515, 7), "processor 7"),
         (lambda d: d.__setitem__(slice(2, 4), b"\xff\x7f"), "bytes, the file has|points in one place"),
         (lambda d: d.__setitem__(slice(20, 24), b"\0\0\0\0"), "0 Hz"),
-        (lambda d: d.__setitem__(slice(516, 518), b"\x7f\x01"), "damaged|points or frames|bytes|ezc3d"),
+        (lambda d: d.__setitem__(slice(516, 518), b"\x7f\x01"), "damaged|points or frames|bytes"),
     ],
 )
 def test_damaged_files_are_refused_in_one_line(written, tmp_path, change, match):
@@ -130,10 +130,11 @@ def test_every_truncation_is_noticed_by_the_header_check(written, tmp_path):
 @pytest.mark.parametrize(
     ("code", "match"),
     [
-        ("import os; os.kill(os.getpid(), 11)", "ended with signal 11"),
-        ("import time; time.sleep(60)", "hangs"),
-        ("raise SystemExit('no reason')", "no reason"),
-        ("x = bytearray(1 << 42)", "ezc3d cannot read"),
+        ("import os; os.kill(os.getpid(), 11)", "crash the reader"),
+        ("import time; time.sleep(60)", "takes more than 1 s"),
+        ("raise SystemExit('std::out_of_range')", "do not fit the C3D format"),
+        ("x = bytearray(1 << 42)", "too much memory"),
+        ("import no_such_package", "ezc3d, which is not installed"),
     ],
 )
 def test_a_crash_a_hang_or_a_glutton_stays_in_the_child(written, tmp_path, monkeypatch, code, match):
@@ -142,8 +143,10 @@ def test_a_crash_a_hang_or_a_glutton_stays_in_the_child(written, tmp_path, monke
     monkeypatch.setattr(ezc3d_reader, "TIME_LIMIT", 0.5)
     monkeypatch.setattr(ezc3d_reader, "CHILD_SCRIPT", fake)
     start = time.perf_counter()
-    with pytest.raises(FormatError, match=match):
+    with pytest.raises(FormatError, match=match) as caught:
         load_gait(written[1])
+    assert "std::" not in str(caught.value)
+    assert "signal" not in str(caught.value)
     assert time.perf_counter() - start < 20  # slow machines; the limit is 1 s
 
 

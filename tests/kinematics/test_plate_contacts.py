@@ -84,6 +84,44 @@ def test_a_force_that_is_nobodys_gives_no_event(robot):
         plate_events(robot, Gait(walk.time, walk.q), [plate])
 
 
+def test_samples_without_force_do_not_change_whose_contact_it_is(robot):
+    """Where nothing presses, the centre of pressure is not a number."""
+    walk = normative_gait("free")
+    plate = plate_under(robot, walk, 1, (0.2, 0.6))
+    point, force = plate.point.copy(), plate.force.copy()
+    gap = (plate.time > 0.4) & (plate.time < 0.403)
+    force[gap], point[force[:, 2] == 0] = 0, np.nan
+    found = plate_events(robot, walk, [dataclasses.replace(plate, point=point, force=force)])
+    assert {e.side for e in found} == {"right"}
+    assert [e.time for e in found] == pytest.approx([0.2, 0.6], abs=1e-3)
+    with pytest.raises(GaitError, match="no contact of a foot"):
+        plate_events(robot, walk, [dataclasses.replace(plate, point=np.full_like(point, np.nan))])
+
+
+def test_a_plate_that_two_feet_load_gives_no_event_and_that_is_stated(robot):
+    walk = normative_gait("free").repeated(2)
+    alone = plate_under(robot, walk, 0, (0.0, 0.6))
+    first, second = plate_under(robot, walk, 1, (0.55, 1.2)), plate_under(robot, walk, 0, (1.2, 1.6))
+    later = (first.time > 1.2)[:, None]
+    moved = dataclasses.replace(first, force=first.force + second.force)
+    for point in (np.where(later, second.point, first.point), np.broadcast_to(first.point[800], (2000, 3))):
+        shared_plate = dataclasses.replace(moved, point=point)
+        with pytest.raises(GaitError, match="both feet load it"):
+            plate_events(robot, walk, [shared_plate])
+        found = with_plates(robot, walk, [shared_plate, alone])
+        assert len(found.remarks) == 1
+        assert "both feet load it" in found.remarks[0]
+
+
+@pytest.mark.parametrize(("length", "counted"), [(0.01, 0), (0.04, 1), (0.3, 1)])
+def test_a_contact_that_the_recording_cuts_off_has_its_strike_or_toe_off(length, counted):
+    t = np.arange(0, 2, 1e-3)
+    ends = force_plates.contacts(t, np.where(t > 2 - length, 500.0, 0.0))
+    begins = force_plates.contacts(t, np.where(t < length, 500.0, 0.0))
+    assert [(c.strike is not None, c.off) for c in ends] == [(True, None)] * counted
+    assert [(c.strike, c.off is not None) for c in begins] == [(None, True)] * counted
+
+
 def test_events_of_the_recording_agree_with_the_force_plates(shared):
     robot = load_robot(Body.from_stature(1.78, mass=72.6))
     gait = load_gait(shared / f"{SUBJECT}_ik_full_opensim46.mot")
@@ -94,7 +132,7 @@ def test_events_of_the_recording_agree_with_the_force_plates(shared):
         assert ours == pytest.approx(stated[: len(ours)], abs=PLATE)
         for t in ours:
             assert min(abs(t - x) for x in times(kinematic, *key)) <= FRAMES, key
-    assert len(measured) == 7  # the left strike at 2.460 s ends beyond the plates' 20 N
+    assert len(measured) == 8  # with the left strike at 2.460 s, whose contact the recording's end cuts off
 
 
 def test_events_of_the_childs_plates_agree_with_those_of_the_file(shared):

@@ -24,6 +24,8 @@ _TEXT_PARAMETERS = {
     "y_screen": ("POINT", "Y_SCREEN"),
     "event_labels": ("EVENT", "LABELS"),
     "event_contexts": ("EVENT", "CONTEXTS"),
+    "analysis_names": ("ANALYSIS", "NAMES"),
+    "analysis_units": ("ANALYSIS", "UNITS"),
 }
 """Array -> parameter of texts; those with more than 255 texts go on in LABELS2, LABELS3 ..."""
 
@@ -54,8 +56,8 @@ def arrays(file) -> dict[str, np.ndarray]:  # type: ignore[no-untyped-def]
     parameters = file["parameters"]
     out = {name: np.array(_texts(parameters, *place), dtype=str) for name, place in _TEXT_PARAMETERS.items()}
     out["points"] = file["data"]["points"][:3]
-    times = np.atleast_2d(parameters.get("EVENT", {}).get("TIMES", {}).get("value", np.zeros((2, 0))))
-    out["event_times"] = np.asarray(times, dtype=float)
+    out["event_times"] = _numbers(parameters, "EVENT", "TIMES")
+    out["analysis_values"] = _numbers(parameters, "ANALYSIS", "VALUES").ravel()
     mass = np.atleast_1d(parameters.get("PROCESSING", {}).get("Bodymass", {}).get("value", []))
     out["mass"] = np.asarray(mass[:1], dtype=float)
     rate = parameters.get("ANALOG", {}).get("RATE", {}).get("value", [0.0])
@@ -78,6 +80,17 @@ def _texts(parameters, group: str, name: str) -> list[str]:  # type: ignore[no-u
     entries = parameters.get(group, {})
     names = [name, *(f"{name}{k}" for k in range(2, _MOST_CONTINUATIONS))]
     return [str(text) for key in names if key in entries for text in entries[key]["value"]]
+
+
+def _numbers(parameters, group: str, name: str) -> np.ndarray:  # type: ignore[no-untyped-def]
+    """The numbers of a parameter in its own shape; those of NAME2, NAME3 .. behind it."""
+    entries = parameters.get(group, {})
+    names = [name, *(f"{name}{k}" for k in range(2, _MOST_CONTINUATIONS))]
+    found = []
+    with contextlib.suppress(TypeError, ValueError):  # a text where numbers belong
+        found = [np.atleast_2d(np.asarray(entries[key]["value"], float)) for key in names if key in entries]
+        return np.concatenate(found, axis=1)
+    return found[0] if found else np.zeros((2, 0))
 
 
 def main() -> None:

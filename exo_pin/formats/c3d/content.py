@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,14 +33,16 @@ class C3dEvents:
     """The events of a C3D file.
 
     Attributes:
-        times: `(2, k)` whole minutes above seconds.
+        times: Whole minutes above seconds `(2, k)`, or another layout of `foot_contacts.event_seconds`.
         labels: Names of the events.
-        contexts: `Left`, `Right` or `General`.
+        contexts: `Left`, `Right` or `General`; may be fewer than the labels.
+        in_header: Whether they stand in the file's header, as in the 1990s.
     """
 
     times: Array
     labels: tuple[str, ...]
     contexts: tuple[str, ...]
+    in_header: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +62,7 @@ class C3dContent:
         analog_rate: Samples of the force plates per second.
         plates: Force plates.
         mass: Of the person [kg], or None where the file does not state it.
+        analysis: The file's own results: name -> value and unit, e.g. `Walking Speed`.
     """
 
     time: Array
@@ -73,6 +77,7 @@ class C3dContent:
     analog_rate: float
     plates: tuple[C3dPlate, ...]
     mass: float | None
+    analysis: Mapping[str, tuple[float, str]]
 
     def output(self, name: str) -> Array:
         """`(n, 3)` of one model output, in its own unit; NaN where all three numbers are 0."""

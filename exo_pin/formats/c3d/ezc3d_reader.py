@@ -69,14 +69,11 @@ def read_content(path: Path) -> C3dContent:
         length_unit=_first(found, "units"),
         angle_unit=_first(found, "angle_units"),
         vertical=_first(found, "y_screen") or "",
-        events=C3dEvents(
-            found["event_times"],
-            tuple(found["event_labels"].tolist()),
-            tuple(found["event_contexts"].tolist()),
-        ),
+        events=_events(found, data, layout),
         analog_rate=float(found["analog_rate"]),
         plates=_plates(found),
         mass=mass if mass > 0 else None,
+        analysis=_analysis(found),
     )
 
 
@@ -126,13 +123,20 @@ def _child(path: Path, file: Path | None = None) -> _Found:
             words, capture_output=True, timeout=2 * TIME_LIMIT, env=environment, check=False
         )
     except subprocess.TimeoutExpired:
-        raise FormatError(path, "ezc3d hangs on this file; damaged?") from None
+        raise FormatError(path, f"reading takes more than {2 * TIME_LIMIT:g} s; damaged?") from None
     if ended.returncode:
-        last = ended.stderr.decode("utf-8", "replace").strip().rpartition("\n")[2]
-        why = f"it ended with signal {-ended.returncode}" if ended.returncode < 0 else last[-200:]
-        raise FormatError(path, f"ezc3d cannot read this file: {why or 'no reason given'}")
+        raise FormatError(path, _failure(ended))
     with np.load(io.BytesIO(ended.stdout), allow_pickle=False) as archive:
         return dict(archive)
+
+
+def _failure(ended: subprocess.CompletedProcess[bytes]) -> str:
+    """Why there is nothing, in words of this package: the reader's own say nothing about the file."""
+    if b"No module named" in ended.stderr:
+        return "a C3D file is read by the Python package ezc3d, which is not installed"
+    if ended.returncode < 0 or b"MemoryError" in ended.stderr:
+        return "its parameters or data crash the reader or take too much memory; damaged?"
+    return "its parameters or data do not fit the C3D format; damaged?"
 
 
 def _first(found: _Found, name: str) -> str | None:
@@ -144,6 +148,23 @@ def _outputs(found: _Found) -> frozenset[str]:
     """Names of what is neither point nor angle."""
     groups = ("forces", "moments", "powers", "scalars")
     return frozenset(name for group in groups for name in unique(found[group].tolist()))
+
+
+def _events(found: _Found, data: bytes, layout: header.Layout) -> C3dEvents:
+    labels = tuple(found["event_labels"].tolist())
+    if labels:
+        return C3dEvents(found["event_times"], labels, tuple(found["event_contexts"].tolist()))
+    times, labels = header.events(data, layout.processor)
+    return C3dEvents(times, labels, (), in_header=bool(labels))
+
+
+def _analysis(found: _Found) -> dict[str, tuple[float, str]]:
+    """Name -> value and unit of the first of each name."""
+    rows = zip(found["analysis_names"], found["analysis_values"], found["analysis_units"], strict=False)
+    out: dict[str, tuple[float, str]] = {}
+    for name, value, unit in rows:
+        out.setdefault(str(name).strip(), (float(value), str(unit).strip()))
+    return out
 
 
 def _plates(found: _Found) -> tuple[C3dPlate, ...]:

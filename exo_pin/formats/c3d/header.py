@@ -8,12 +8,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.c3d.byte_order import PROCESSORS, floats, integers
 
 _BLOCK = 512
 _KEY = 0x50
 _MOST_PARAMETERS = 20_000
+_FOUR_LETTERS = 12345
+"""The word before the header's events where their labels have four letters."""
+
+_MOST_HEADER_EVENTS = 18
 
 
 class Layout(NamedTuple):
@@ -93,6 +98,21 @@ def check(path: Path, data: bytes) -> Layout:
         raise FormatError(path, f"has {frames} frames at {rate:g} Hz; expected a recording")
     first = numbers.get("START", first)
     return Layout(points, frames, first, rate, processor, start, begin, end, scale < 0)
+
+
+def events(data: bytes, processor: int) -> tuple[Array, tuple[str, ...]]:
+    """Times [s] and labels of the events in the header, where files of the 1990s have them; at most 18.
+
+    Args:
+        data: Of the file.
+        processor: Which wrote the numbers.
+    """
+    key, count = integers(data[298:302], processor).tolist()
+    if key != _FOUR_LETTERS or count > _MOST_HEADER_EVENTS:
+        return np.zeros((2, 0)), ()
+    times = floats(data[304 : 304 + 4 * count], processor).astype(float)
+    labels = [data[396 + 4 * k : 400 + 4 * k].decode("latin-1") for k in range(count)]
+    return np.array([np.zeros(count), times]), tuple(label.strip(" \0") for label in labels)
 
 
 def _frames(numbers: dict[str, int], first: int, last: int) -> int:

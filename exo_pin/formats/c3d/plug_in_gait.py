@@ -65,8 +65,11 @@ def model_angles(path: Path, trial: Markers) -> Gait:
     if stop - start < len(trial):
         source += f", frames {start} to {stop - 1} of {len(trial)}"
     events = tuple(event for event in trial.events if time[0] <= event.time <= time[-1])
-    base = _pelvis(trial, start, stop)
-    return to_gait(path, time, q[start:stop], base, Metadata(events, source=source, remarks=trial.remarks))
+    base, remarks = _pelvis(trial, start, stop), trial.remarks
+    if len(events) < len(trial.events):
+        left = len(trial.events) - len(events)
+        remarks += (f"{left} of {len(trial.events)} events lie in frames without angles and are left out",)
+    return to_gait(path, time, q[start:stop], base, Metadata(events, source=source, remarks=remarks))
 
 
 def joint_moments(path: Path, content: C3dContent, preset: SignPreset | None, mass: float | None) -> Torques:

@@ -12,7 +12,7 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes, write_bytes
-from exo_pin.formats.c3d.foot_contacts import EVENT_WORDS
+from exo_pin.formats.c3d.event_words import EVENT_WORDS
 from exo_pin.formats.c3d.plug_in_gait import PELVIS_FRAME, PLUG_IN_GAIT, angle_of
 from exo_pin.gait import Gait
 from exo_pin.signals import EVEN_GRID, ROUNDED_TIME
