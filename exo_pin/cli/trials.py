@@ -41,7 +41,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--columns",
         metavar="A,B,...",
-        help="of a table without column names: each column's joint, `time`, or `_` for none; -JOINT turns the sign",
+        help="of a table without column names: each column's joint, `time` or `_` (not used); -JOINT turns "
+        "the sign",
     )
     group.add_argument(
         "--row-rate", type=float, metavar="HZ", help="rows per second of a table without a column of seconds"

@@ -60,7 +60,7 @@ def load_gait(
     if name.suffix.lower() not in TABLE_SUFFIXES and (columns or row_rate is not None):
         find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
         raise FormatError(
-            name, f"columns by position and a rate of rows are for tables ({', '.join(TABLE_SUFFIXES)})"
+            name, f"columns by position and row rate are for tables ({', '.join(TABLE_SUFFIXES)})"
         )
     order = None if pelvis_order is None else tuple(pelvis_order)
     osim = None if model is None else Path(model)
