@@ -178,7 +178,7 @@ def _is_number(value: Any) -> bool:
 def _span(path: Path, joints: list[_SetPoints], content: Any) -> tuple[Array, list[str]]:
     """`(n,)` times at which every joint is known [s], and where the file states another duration."""
     start, stop = max(given.time[0] for given in joints), min(given.time[-1] for given in joints)
-    if not stop - start > 2 / _RATE:
+    if not stop - start > 1 / _RATE:
         raise FormatError(path, f"the joints are known together from {start:g} to {stop:g} s only")
     remarks = []
     last = max(given.time[-1] for given in joints)

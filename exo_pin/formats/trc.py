@@ -89,13 +89,13 @@ def _header(path: Path, lines: Sequence[str]) -> dict[str, str]:
     """Key -> value of lines 2 and 3; some programs pad the values with more tabs than there are keys."""
     keys, values = (_cells(line) for line in lines[1:3])
     keys = [key.lower() for key in keys if key]
-    if "" in values[: len(keys)]:
-        values = [value for value in values if value]
-    if len(keys) < 5 or len(values) < 5:
+    layouts = [values, [value for value in values if value]]
+    if len(keys) < 5 or len(layouts[0]) < 5:
         raise FormatError(
             path, "expected the keys DataRate, ..., Units and their values in lines 2 and 3", line=2
         )
-    return dict(zip(keys, values, strict=False))
+    headers = [dict(zip(keys, layout, strict=False)) for layout in layouts]
+    return next((found for found in headers if found.get("units", "").lower() in METRES_PER), headers[0])
 
 
 def _unit(path: Path, header: dict[str, str]) -> str:

@@ -138,7 +138,7 @@ def changed(change):
         (lambda c: c["joints"]["left_knee"][1].update(time_from_start=10**400), "time_from_start must be"),
         (lambda c: c["joints"]["left_knee"][2].update(time_from_start=0), "each later than the one before"),
         (lambda c: c["joints"].update(left_knee=[]), "at least 2 set points"),
-        (lambda c: c["joints"]["left_knee"][2].update(time_from_start=ros1(0.51)) or
+        (lambda c: c["joints"]["left_knee"][2].update(time_from_start=ros1(0.505)) or
          c["joints"]["right_knee"].pop(0), None),
     ],
 )  # fmt: skip

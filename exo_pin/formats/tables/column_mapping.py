@@ -197,18 +197,25 @@ def positional_header(path: Path, lines: Sequence[str], columns: Sequence[str]) 
     raise FormatError(path, f"{len(columns)} columns are named, but {held}; `_` leaves a column out")
 
 
-def positional_mapping(columns: Sequence[str]) -> dict[str, str]:
+def positional_mapping(path: Path, columns: Sequence[str]) -> dict[str, str]:
     """`column 1` and so on -> joint or time; a minus before the joint goes before the column.
 
+    Args:
+        path: The file, for messages.
+        columns: What each column is.
+
     Raises:
+        FormatError: A joint is named twice.
         UnknownNameError: A column is named otherwise.
     """
-    mapping = {}
+    mapping = dict[str, str]()
     for number, word in enumerate(columns, 1):
         joint = word.strip()
         sign, joint = ("-", joint[1:]) if joint.startswith("-") else ("", joint)
         if joint not in ("_", _TIME, *JOINTS):
             raise UnknownNameError("column", joint, (*JOINTS, _TIME, "_"))
+        if joint != "_" and joint in mapping.values():
+            raise FormatError(path, f"{joint} is named twice; every column once, `_` leaves one out")
         if joint != "_":
             mapping[f"{sign}column {number}"] = joint
     return mapping

@@ -58,7 +58,7 @@ def mapped_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
 def positional_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
     """The walk in a table without column names, by the options' columns; else as `mapped_gait`."""
     options.refuse(path, "preset", why="its columns are named by position")
-    mapping = positional_mapping(options.columns) | dict(options.mapping)
+    mapping = positional_mapping(path, options.columns) | dict(options.mapping)
     refuse_length(path, len(lines))
     header = positional_header(path, lines, options.columns)
     return _gait(header, lines, column_mapping(options._replace(mapping=mapping)), options)
