@@ -46,6 +46,7 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     walk = trials.gait(args)
     if walk is None:
         options = {"preset": args.preset, "mapping": trials.mapping(args), "units": args.units}
+        options |= trials.positions(args)
         walk = load(args.gait, body, args.files, **options, **trials.opensim(args))
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {show.plain(walk.source)}", file=sys.stderr)
@@ -76,7 +77,7 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
     if name in SPEEDS and not Path(name).exists():
         if any(options.values()) or (files and files.length_unit):
             raise DescriptionError(
-                f"{name} is a normal walk; --preset, --map, --units and --model are for files"
+                f"{name} is a normal walk; --preset, --map, --columns, --units and --model are for files"
             )
         from exo_pin.gait import normative_gait
 

@@ -39,6 +39,15 @@ def add(parser: argparse.ArgumentParser) -> None:
         "COLUMN holds the joint there; of a marker trial: MARKER=NAME, a marker's name in its set",
     )
     group.add_argument(
+        "--columns",
+        metavar="A,B,...",
+        help="of a table without column names: each column's joint, `time` or `_` (not used); -JOINT turns "
+        "the sign",
+    )
+    group.add_argument(
+        "--row-rate", type=float, metavar="HZ", help="rows per second of a table without a column of seconds"
+    )
+    group.add_argument(
         "--units",
         action=_Units,
         choices=("deg", "rad", "mm", "cm", "m"),
@@ -86,6 +95,12 @@ def _pair(text: str) -> tuple[str, str]:
     if not (found and column and joint):
         raise DescriptionError(f"--map {text!r} is not of the form COLUMN=JOINT")
     return column, joint
+
+
+def positions(args: argparse.Namespace) -> dict[str, Any]:
+    """Options of a table without column names, as `load_gait` takes them."""
+    columns = () if args.columns is None else tuple(args.columns.split(","))
+    return {"columns": columns, "row_rate": args.row_rate}
 
 
 def opensim(args: argparse.Namespace) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from exo_pin.formats.opensim import StorageFile, write_gait
 from exo_pin.formats.presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial
+from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 from exo_pin.gait.torques import Torques
@@ -26,6 +27,8 @@ def load_gait(
     units: AngleUnit | None = None,
     model: str | Path | None = None,
     pelvis_order: Sequence[PelvisRotation] | None = None,
+    columns: Sequence[str] = (),
+    row_rate: float | None = None,
 ) -> Gait:
     """Read a walk from a file with joint angles.
 
@@ -39,6 +42,9 @@ def load_gait(
             legs and the hip centres.
         pelvis_order: Without a model: the order of the pelvis's rotations from the ground on, e.g.
             `("rotation", "list", "tilt")`; None: tilt, list, rotation.
+        columns: Of a table (.csv, .tsv, .txt) without a header line: what each column is, a joint or `time`;
+            `-joint` changes the sign, `_` is a column that is not used.
+        row_rate: Of a table without a column of seconds: rows per second [Hz].
 
     Raises:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
@@ -51,8 +57,14 @@ def load_gait(
         raise FormatError(
             name, "a model (.osim) or an order of the pelvis's rotations is for .mot and .sto files"
         )
+    if name.suffix.lower() not in TABLE_SUFFIXES and (columns or row_rate is not None):
+        find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
+        raise FormatError(
+            name, f"columns by position and row rate are for tables ({', '.join(TABLE_SUFFIXES)})"
+        )
     order = None if pelvis_order is None else tuple(pelvis_order)
-    options = ReadOptions(preset, mapping, units, None if model is None else Path(model), order)
+    osim = None if model is None else Path(model)
+    options = ReadOptions(preset, mapping, units, osim, order, tuple(columns), row_rate)
     return (file or open_trial(name)).gait(options)
 
 

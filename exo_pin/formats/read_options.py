@@ -21,6 +21,9 @@ class ReadOptions(NamedTuple):
         model: The OpenSim model (.osim) that a file of coordinates belongs to.
         pelvis_order: Order of the pelvis's rotations where there is no model: names of
             `pelvis_axes.PELVIS_ROTATIONS`.
+        columns: Of a table without a header line: what each column is, a joint or `time`; `-joint` turns the
+            sign, `_` is a column that is not used.
+        row_rate: Of a table without a column of seconds: rows per second [Hz].
     """
 
     preset: SignPreset | None = None
@@ -28,6 +31,8 @@ class ReadOptions(NamedTuple):
     units: AngleUnit | None = None
     model: Path | None = None
     pelvis_order: tuple[PelvisRotation, ...] | None = None
+    columns: tuple[str, ...] = ()
+    row_rate: float | None = None
 
     def refuse(self, path: Path, *names: Literal["preset", "mapping", "units"], why: str) -> None:
         """Refuse options that a format leaves no choice for.

@@ -12,6 +12,7 @@ from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, opensim, tables
 from exo_pin.formats.gait_npz import open_archive, write_archive
 from exo_pin.formats.joint_trajectory import open_json, open_yaml
+from exo_pin.formats.march_subgait import open_subgait
 from exo_pin.formats.trajectory_writer import write_json, write_yaml
 from exo_pin.formats.trc import open_trc
 from exo_pin.formats.trial_file import TrialFile
@@ -71,6 +72,7 @@ _ALL = (
         c3d.write_gait,
     ),
     Format("ROS JointTrajectory, JSON", (".json",), ("angles",), open_json, write_json),
+    Format("set points of Project MARCH's exoskeleton", (".subgait",), ("angles",), open_subgait, None),
     Format("marker trial of Motion Analysis", (".trc",), ("markers",), open_trc, None),
 )
 

@@ -52,9 +52,11 @@ class TrcFile(TrialFile):
 
 
 def open_trc(path: Path) -> TrcFile:
-    """Read a .trc file. What the header states must be true.
+    """Read a .trc file.
 
-    A marker whose cells are empty, NaN or all three exactly 0 was not seen. Decimals may have a comma.
+    A marker whose cells are empty, NaN or all three exactly 0 was not seen. Decimals may have a comma. Counts
+    of frames and markers in the header are often those of another trial: where the table is whole, a count
+    that differs is a remark.
 
     The format does not state which axis is up.
 
@@ -67,30 +69,33 @@ def open_trc(path: Path) -> TrcFile:
             path, "the first line is not 'PathFileType ...'; expected a .trc marker file", line=1
         )
     header = _header(path, lines)
-    names = _names(path, lines[_HEADER_LINES], header)
+    unit = _unit(path, header)
+    names = _names(path, lines, header)
     places = unique(names)
     values, first = _values(path, lines, len(names)), _HEADER_LINES + 3
-    stated = header.get("numframes", "")
-    if re.fullmatch(r"\d{1,15}", stated) and int(stated) != len(values):
-        raise FormatError(path, f"header says {stated} frames, the file has {len(values)}; cut short?")
-    scale = METRES_PER[_unit(path, header)]
-    position = values[:, 2:].reshape(len(values), len(names), 3)[:, list(places.values())] * scale
+    position = values[:, 2:].reshape(len(values), len(names), 3)[:, list(places.values())] * METRES_PER[unit]
     position = np.where((position == 0).all(axis=2, keepdims=True), np.nan, position)
     if np.isnan(values[:, 1]).any():
         raise FormatError(path, "a frame without a time", line=first)
+    remarks = _remarks(header, len(names), len(values))
     try:
-        return TrcFile(path, Markers(values[:, 1], tuple(places), position, source=path.name))
+        trial = Markers(values[:, 1], tuple(places), position, source=path.name, remarks=remarks, unit=unit)
     except GaitError as error:
         raise FormatError(path, str(error)) from error
+    return TrcFile(path, trial)
 
 
 def _header(path: Path, lines: Sequence[str]) -> dict[str, str]:
-    keys, values = lines[1].split("\t"), lines[2].split("\t")
-    if len(keys) < 5 or len(values) < 5:
+    """Key -> value of lines 2 and 3; some programs pad the values with more tabs than there are keys."""
+    keys, values = (_cells(line) for line in lines[1:3])
+    keys = [key.lower() for key in keys if key]
+    layouts = [values, [value for value in values if value]]
+    if len(keys) < 5 or len(layouts[0]) < 5:
         raise FormatError(
             path, "expected the keys DataRate, ..., Units and their values in lines 2 and 3", line=2
         )
-    return {key.strip().lower(): value.strip() for key, value in zip(keys, values, strict=False)}
+    headers = [dict(zip(keys, layout, strict=False)) for layout in layouts]
+    return next((found for found in headers if found.get("units", "").lower() in METRES_PER), headers[0])
 
 
 def _unit(path: Path, header: dict[str, str]) -> str:
@@ -100,19 +105,52 @@ def _unit(path: Path, header: dict[str, str]) -> str:
     return unit
 
 
-def _names(path: Path, line: str, header: dict[str, str]) -> list[str]:
-    """Names of the markers, each over three columns."""
-    cells = line.rstrip().split("\t")
-    if len(cells) < 3 or cells[1].strip().lower() != "time":
-        raise FormatError(path, "expected Frame#, Time and the markers' names", line=_HEADER_LINES + 1)
-    names = [cell.strip() for cell in cells[2::3]]
-    stated = header.get("nummarkers", "")
-    if re.fullmatch(r"\d{1,9}", stated) and 0 < int(stated) < len(names):
-        names = names[: int(stated)]  # some programs leave more names than columns
-    if stated != str(len(names)):
-        why = f"header says {stated[:20]} markers, the line of names has {len(names)}"
-        raise FormatError(path, why, line=_HEADER_LINES + 1)
-    return names
+def _names(path: Path, lines: Sequence[str], header: dict[str, str]) -> list[str]:
+    """Names of the markers.
+
+    Usually one stands over every third column. Some programs leave two columns or one; then each name is that
+    of the next three columns, provided that there are as many names as the header or the line of axes
+    (X1 Y1 Z1 ...) below says.
+    """
+    number = _HEADER_LINES + 1
+    cells = _cells(lines[_HEADER_LINES].rstrip())
+    if len(cells) < 3 or not cells[1].lower().startswith("time"):
+        raise FormatError(path, "expected Frame#, Time and the markers' names", line=number)
+    usual, packed = cells[2::3], [cell for cell in cells[2:] if cell]
+    stated = _count(header, "nummarkers")
+    axes = len(lines[_HEADER_LINES + 1].split()) // 3
+    for count in (stated, axes):
+        for names in (usual, packed):
+            if count == len(names) and (names is packed or set(packed) <= set(usual)):
+                return names
+    if set(packed) <= set(usual) and (0 < stated < len(usual) or len(usual) < stated == axes):
+        # some programs leave more names than columns, others do not name the last markers
+        return [*usual, *[""] * (stated - len(usual))][:stated]
+    said = header.get("nummarkers", "")[:20]
+    why = f"header says {said or 'no number of'} markers, the line of names has {len(packed)}"
+    raise FormatError(path, why, line=number)
+
+
+def _cells(line: str) -> list[str]:
+    """The cells of a line between tabs, or between blanks where it has no tab."""
+    return [cell.strip() for cell in line.split("\t")] if "\t" in line else line.split()
+
+
+def _count(header: dict[str, str], key: str) -> int:
+    """A number of the header; -1 where it holds none."""
+    stated = header.get(key, "")
+    return int(stated) if re.fullmatch(r"\d{1,15}", stated, re.ASCII) else -1
+
+
+def _remarks(header: dict[str, str], markers: int, frames: int) -> tuple[str, ...]:
+    """Where the header's counts differ from the table."""
+    counts = (("nummarkers", "NumMarkers", markers, "markers"), ("numframes", "NumFrames", frames, "frames"))
+    return tuple(
+        f"the header's {key} is {header.get(name, '')[:20] or 'missing'}, "
+        f"the file holds {count} {what}: all of these are read"
+        for name, key, count, what in counts
+        if _count(header, name) != count
+    )
 
 
 def _values(path: Path, lines: Sequence[str], k: int) -> Array:
@@ -129,7 +167,7 @@ def _values(path: Path, lines: Sequence[str], k: int) -> Array:
         raise FormatError(path, f"more than {_MOST_NUMBERS} numbers; split the trial")
     values = np.full((len(rows), width), np.nan)
     for i, (number, line) in enumerate(rows):
-        cells = line.rstrip("\t ").replace(",", ".").split("\t")
+        cells = _cells(line.rstrip("\t ").replace(",", "."))
         if len(cells) > width or len(cells) < 2:
             raise FormatError(path, f"{len(cells)} values, but {k} markers need {width}", line=number)
         values[i, : len(cells)] = _row(path, cells, number)

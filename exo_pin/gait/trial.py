@@ -65,6 +65,7 @@ class Markers:
         source: Where the numbers come from, in words.
         remarks: What reading the file held, corrected or ignored, a plain sentence each; the walk made of the
             trial has them too.
+        unit: What the file states its lengths in, for messages; "" where it states none.
 
     Raises:
         GaitError: Shapes, time or names are unusable.
@@ -79,6 +80,7 @@ class Markers:
     plates: tuple[ForcePlate, ...] = ()
     source: str = ""
     remarks: tuple[str, ...] = ()
+    unit: str = ""
 
     def __post_init__(self) -> None:
         set_fields(

@@ -10,8 +10,10 @@ import numpy as np
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex
+from exo_pin.anatomy.sizes import SIZES
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, GaitError
+from exo_pin.formats.units import METRES_PER
 from exo_pin.markers.marker_sets import MarkerSet
 from exo_pin.markers.rigid_fit import rigid_fit
 
@@ -141,6 +143,33 @@ def _ankle(places: Mapping[str, Array], paths: Mapping[str, Array]) -> Array:
     side /= np.linalg.norm(side)
     own_axes = np.stack([own, side, np.cross(own, side)], axis=1)
     return np.asarray(p - np.einsum("nij,kj,k->ni", axes, own_axes.T, heel))
+
+
+def check_lengths(sizes: Sizes, unit: str) -> None:
+    """Refuse lengths that no person has, before anything is fitted to them.
+
+    Args:
+        sizes: By markers.
+        unit: What the file states its lengths in; "" where it states none.
+
+    Raises:
+        GaitError: With the unit in which they would be a person's.
+    """
+    size, stature = SIZES["stature"], float(np.mean(sizes.leg)) / _LEG_PART
+    if size.low <= stature <= size.high:
+        return
+    says = f"; the file says {unit}" if unit else ""
+    for word, metres in (("metres", 1.0), ("centimetres", 1e-2), ("millimetres", 1e-3)):
+        fitting = stature * metres / METRES_PER.get(unit, 1.0)
+        if size.low <= fitting <= size.high:
+            raise GaitError(
+                f"the markers are no person's, whose stature would be {stature:.2g} m: in {word}? "
+                f"It would be {fitting:.2f} m then{says}"
+            )
+    raise GaitError(
+        f"the markers are no person's, whose stature would be {stature:.2g} m{says}; "
+        f"{size.low:g} .. {size.high:g} m is accepted"
+    )
 
 
 def body_of(sizes: Sizes, chosen: MarkerSet, *, mass: float | None, sex: Sex) -> Body:

@@ -18,7 +18,7 @@ from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, TrialFile, load_markers
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import UP_AXES, to_z_up, vertical_along
-from exo_pin.markers.body_scale import body_of, first_sizes
+from exo_pin.markers.body_scale import body_of, check_lengths, first_sizes
 from exo_pin.markers.marker_fit import calibrated, fit_poses, some_frames
 from exo_pin.markers.marker_places import MarkerPlaces
 from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
@@ -129,6 +129,7 @@ def reconstruct(
     calibration = paths if static is None else _paths(static, chosen.name)[1]
     shared = {name: path for name, path in paths.items() if name in calibration}
     sizes, pelvis = first_sizes(chosen, {name: calibration[name] for name in shared})
+    check_lengths(sizes, (static or trial).unit)
     model = calibrated(chosen, sizes, pelvis, {name: some_frames(calibration[name]) for name in shared})
     start, stop = _seen(model.places, paths)
     used = {name: path[start:stop] for name, path in paths.items()}

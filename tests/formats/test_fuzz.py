@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exo_pin.anatomy import FEET
+from exo_pin.anatomy import FEET, SIDES
 from exo_pin.errors import FormatError
 from exo_pin.formats import FORMATS, Poses, load_gait, load_poses, save_gait, save_poses
 from exo_pin.gait import Gait, normative_gait
@@ -92,6 +92,12 @@ def write_example(kind, path):
         save_gait(examples()[kind], path.with_suffix(".tsv"))
         lines = path.with_suffix(".tsv").read_text().splitlines()
         path.write_text("\n".join(line for line in lines if not line.startswith("#")))
+    elif kind == ".subgait":  # only read: an exoskeleton's set points
+        names = ("hip_fe", "hip_aa", "knee", "ankle")
+        point = "  - {{position: 0.1, time_from_start: {{secs: 0, nsecs: {}}}, velocity: 0.0}}"
+        points = [point.format(t) for t in (0, 20_000_000)]
+        joints = ["\n".join([f"  {side}_{name}:", *points]) for side in SIDES for name in names]
+        path.write_text("\n".join(["duration: {secs: 0, nsecs: 20000000}", "joints:", *joints, ""]))
     elif kind == "poses":
         save_poses(examples()[kind], path)
     else:
@@ -112,7 +118,8 @@ def test_damaged_files_are_read_or_refused_but_never_crash(tmp_path_factory, kin
     folder = tmp_path_factory.mktemp("fuzz")
     path = folder / ("poses.csv" if kind == "poses" else f"walk{kind}")
     read, save = (load_poses, save_poses) if kind == "poses" else (load_gait, save_gait)
-    again = folder / (f"again{path.suffix}" if path.suffix != ".txt" else "again.csv")
+    written = kind == "poses" or FORMATS[kind].write
+    again = folder / (f"again{path.suffix}" if written else "again.csv")
     write_example(kind, path)
     whole = path.read_bytes()
     assert read(path).time.shape == (3,)

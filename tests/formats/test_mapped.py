@@ -166,6 +166,70 @@ def test_our_own_columns_need_no_mapping_in_a_tsv(path):
     np.testing.assert_allclose(load_gait(path).q, walk.q, atol=EXACT)
 
 
+EIGHT = [
+    f"{sign}{side}_{movement}"
+    for side in ("left", "right")
+    for sign, movement in (
+        ("", "ankle_dorsiflexion"),
+        ("-", "hip_adduction"),
+        ("", "hip_flexion"),
+        ("", "knee_flexion"),
+    )
+]
+NOT_THERE = {"0": ",".join(j for j in JOINTS if j.endswith(("hip_rotation", "inversion")))}
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t", " ", "   "])
+@pytest.mark.parametrize("above", [(), ("# by a robot",), ("", "Laboratory X")])
+def test_columns_without_names_are_read_by_position(path, rng, separator, above):
+    path = path.with_suffix(".txt")
+    values = rng.uniform(-0.5, 0.5, (5, 8))
+    path.write_text("\n".join([*above, *(separator.join(map(repr, row)) for row in values.tolist())]))
+    gait = load_gait(path, columns=EIGHT, row_rate=50, units="rad", mapping=NOT_THERE)
+    for k, name in enumerate(EIGHT):
+        sign = -1 if name.startswith("-") else 1
+        np.testing.assert_allclose(gait.q[:, JOINTS.index(name.lstrip("-"))], sign * values[:, k], atol=EXACT)
+    np.testing.assert_allclose(gait.time, np.arange(5) / 50)
+    assert gait.source == "lab.txt, columns by position, 50 rows per second"
+
+
+def test_a_column_may_hold_the_time_or_nothing(path):
+    path.write_text("\n".join(f"{0.02 * k!r},99,{','.join(['0.1'] * 8)}" for k in range(4)))
+    gait = load_gait(path, columns=["time", "_", *EIGHT], units="rad", mapping=NOT_THERE)
+    np.testing.assert_allclose(gait.time, 0.02 * np.arange(4))
+    with pytest.raises(FormatError, match="column 1 holds the seconds; a rate of rows is for"):
+        load_gait(path, columns=["time", "_", *EIGHT], units="rad", mapping=NOT_THERE, row_rate=50)
+
+
+def test_a_table_without_names_says_how_it_is_read(path):
+    text = "\n".join(",".join(["0.1"] * 8) for _ in range(4))
+    path.write_text(text)
+    by_position = {"columns": EIGHT, "row_rate": 50, "units": "rad", "mapping": NOT_THERE}
+    for options, match in (
+        ({}, "the first row holds numbers; name the columns by position, --columns time,left"),
+        ({"mapping": {"a": "time"}}, "the first row holds numbers; name the columns by position"),
+        (by_position | {"columns": EIGHT[:-1]}, "7 columns are named, but its rows hold 8 numbers"),
+        (by_position | {"columns": [*EIGHT, "time"]}, "9 columns are named, but its rows hold 8 numbers"),
+        (by_position | {"row_rate": None}, "no column of seconds; .* rows per second"),
+        (by_position | {"row_rate": 0}, "0 rows per second; more than 0"),
+        (by_position | {"row_rate": float("nan")}, "nan rows per second; more than 0"),
+        (by_position | {"units": None}, "nothing says whether angles are deg or rad"),
+        (by_position | {"mapping": {}}, "no column is mapped to left_hip_rotation"),
+        (by_position | {"preset": "vicon-pig"}, "preset is not for this kind of file"),
+        (by_position | {"columns": [EIGHT[0], *EIGHT[:7]]}, "left_ankle_dorsiflexion is named twice"),
+    ):
+        with pytest.raises(FormatError, match=match) as caught:
+            load_gait(path, **options)
+        assert caught.value.line in (None, 1)
+    with pytest.raises(UnknownNameError, match="did you mean 'left_knee_flexion'"):
+        load_gait(path, columns=["left_knee_flexoin"], units="rad", row_rate=50)
+    path.write_text("nothing\n")
+    with pytest.raises(FormatError, match="8 columns are named, but no row of numbers"):
+        load_gait(path, **by_position)
+    with pytest.raises(FormatError, match=r"are for tables \(\.csv, \.tsv, \.txt\)"):
+        load_gait(path.with_suffix(".mot"), columns=EIGHT)
+
+
 def test_a_table_of_ten_million_rows_is_refused_before_it_takes_memory(path, monkeypatch):
     monkeypatch.setattr("exo_pin.formats.tables.numeric_table.MOST_ROWS", 1000)
     path.write_text("t,K\n" + "0,1\n" * 2000)

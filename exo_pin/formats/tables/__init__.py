@@ -2,6 +2,7 @@
 
 from exo_pin.formats.tables.pose_table import Poses, load_poses, save_poses
 from exo_pin.formats.tables.table_file import (
+    TABLE_SUFFIXES,
     TableFile,
     open_csv,
     open_tsv,
@@ -10,6 +11,7 @@ from exo_pin.formats.tables.table_file import (
 )
 
 __all__ = [
+    "TABLE_SUFFIXES",
     "Poses",
     "TableFile",
     "load_poses",

@@ -11,7 +11,14 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import write_text
 from exo_pin.formats.tables.metadata import Comment, Metadata, comment_lines, comments_in
-from exo_pin.formats.tables.numeric_table import NumericTable, check_columns, parse, rows_of_text
+from exo_pin.formats.tables.numeric_table import (
+    HEADERLESS,
+    NumericTable,
+    check_columns,
+    is_number,
+    parse,
+    rows_of_text,
+)
 
 _MAPPING = "its column = our joint, --map COLUMN=JOINT"
 """How a table of others is read."""
@@ -57,6 +64,8 @@ def parse_csv(
             path, f"empty; expected a header line {','.join(required[:3])},... and rows of numbers"
         )
     names = [name.strip() for name in lines[start].split(separator)]
+    if len(names) > 1 and all(map(is_number, names)):
+        raise FormatError(path, HEADERLESS, line=start + 1)
     if separator == ",":
         _check_separator(path, lines[start], required, start + 1)
     _check_known(path, names, [*required, *(name for group in groups.values() for name in group)], start + 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +12,23 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
-from exo_pin.formats.tables.column_mapping import Column, Header, cells_of, column_mapping, find_header
+from exo_pin.formats.tables.column_mapping import (
+    Column,
+    Header,
+    cells_of,
+    column_mapping,
+    find_header,
+    positional_header,
+    positional_mapping,
+)
 from exo_pin.formats.tables.metadata import Metadata, to_gait
 from exo_pin.formats.tables.numeric_table import NumericTable, parse, refuse_length
 from exo_pin.formats.units import RADIANS_PER
 from exo_pin.gait import Gait
 from exo_pin.signals import GAP, filled, longest_run
+
+_FASTEST = 1e5
+"""Rows per second that are believed [Hz]; force plates have 2000."""
 
 
 def mapped_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
@@ -41,13 +52,39 @@ def mapped_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
     """
     mapping = column_mapping(options)
     refuse_length(path, len(lines))
-    header = find_header(path, lines, mapping)
-    time, joints = header.time(mapping), header.joints(mapping)
-    used = list(dict.fromkeys([time, *(c.name for c in joints.values() if c.constant is None)]))
-    table = _table(header, lines, used)
-    scale = RADIANS_PER[header.unit(options.units, used[1:])]
+    return _gait(find_header(path, lines, mapping), lines, mapping, options)
+
+
+def positional_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
+    """The walk in a table without column names, by the options' columns; else as `mapped_gait`."""
+    options.refuse(path, "preset", why="its columns are named by position")
+    mapping = positional_mapping(path, options.columns) | dict(options.mapping)
+    refuse_length(path, len(lines))
+    header = positional_header(path, lines, options.columns)
+    return _gait(header, lines, column_mapping(options._replace(mapping=mapping)), options)
+
+
+def _gait(header: Header, lines: Sequence[str], mapping: Mapping[str, str], options: ReadOptions) -> Gait:
+    time, joints = header.time(mapping, options.row_rate), header.joints(mapping)
+    angles = dict.fromkeys(column.name for column in joints.values() if column.constant is None)
+    table = _table(header, lines, list(angles), time)
+    scale = RADIANS_PER[header.unit(options.units, list(angles))]
     q = np.column_stack([_angles(table, joints[joint], scale) for joint in JOINTS])
-    return _without_gaps(path, table.times(time), q, options)
+    return _without_gaps(header.path, _times(table, time, options.row_rate), q, options)
+
+
+def _times(table: NumericTable, column: str | None, row_rate: float | None) -> Array:
+    """`(n,)` seconds of the rows."""
+    if column is not None:
+        return table.times(column)
+    assert row_rate is not None  # Header.time refuses a table without both
+    if not 0 < row_rate <= _FASTEST:
+        raise FormatError(
+            table.path, f"{row_rate:g} rows per second; more than 0, up to {_FASTEST:g} is accepted"
+        )
+    if len(table.values) < 2:
+        raise FormatError(table.path, "only one row of data; a walk has at least 2", line=table.lines[0])
+    return np.arange(len(table.values)) / row_rate
 
 
 def _without_gaps(path: Path, t: Array, q: Array, options: ReadOptions) -> Gait:
@@ -56,18 +93,28 @@ def _without_gaps(path: Path, t: Array, q: Array, options: ReadOptions) -> Gait:
     start, stop = longest_run(np.isfinite(whole.values).all(axis=1))
     if stop - start < 2:
         raise FormatError(path, f"no two rows in a row without gaps longer than {GAP:g} s")
-    how = [f"preset {options.preset}" if options.preset else "as mapped"]
+    how = [
+        "columns by position"
+        if options.columns
+        else f"preset {options.preset}"
+        if options.preset
+        else "as mapped"
+    ]
+    how += [f"{options.row_rate:g} rows per second"] if options.row_rate is not None else []
     how += [f"{whole.filled} angles in gaps up to {GAP:g} s filled"] if whole.filled else []
     how += [f"rows {start + 1} to {stop} of {len(t)}, the rest has gaps"] if stop - start < len(t) else []
     metadata = Metadata(source=f"{path.name}, {', '.join(how)}")
     return to_gait(path, t[start:stop], whole.values[start:stop], None, metadata)
 
 
-def _table(header: Header, lines: Sequence[str], used: list[str]) -> NumericTable:
-    """The used columns as numbers."""
+def _table(header: Header, lines: Sequence[str], angles: list[str], time: str | None) -> NumericTable:
+    """The used columns as numbers, the time first where there is one."""
+    used = [*([] if time is None else [time]), *angles]
     twice = next((name for name in used if header.names.count(name) > 1), None)
     if twice is not None:
-        raise FormatError(header.path, f"column {twice[:80]!r} occurs more than once", line=header.line)
+        raise header.refused(f"column {twice[:80]!r} occurs more than once")
+    if not used:
+        raise header.refused("no column is used")
     places = [header.names.index(name) for name in used]
     rows = list[str]()
     for number, line in enumerate(lines[header.line :], header.line + 1):
@@ -78,13 +125,13 @@ def _table(header: Header, lines: Sequence[str], used: list[str]) -> NumericTabl
         if len(cells) <= max(places):
             why = f"{len(cells)} values, but the header has {len(header.names)}"
             raise FormatError(header.path, why, line=number)
-        if not cells[places[0]]:
+        if time is not None and not cells[places[0]]:
             raise FormatError(header.path, f"{used[0][:80]} is empty; every row needs a time", line=number)
         rows.append(_row([cells[k] for k in places], header.separator))
     return parse(header.path, used, rows, first=header.line + 1, delimiter=",", gaps=True)
 
 
-def _row(cells: Sequence[str], separator: str) -> str:
+def _row(cells: Sequence[str], separator: str | None) -> str:
     """Numbers with points, separated by commas; a gap is NaN."""
     if separator != ",":
         cells = [cell.replace(",", ".") for cell in cells]

@@ -15,6 +15,12 @@ from exo_pin.errors import FormatError
 MOST_ROWS = 2_000_000
 """Of a table: five hours at 100 Hz; bounds memory (a walk of this size takes 1.2 GB)."""
 
+HEADERLESS = (
+    "no line of column names, the first row holds numbers; name the columns by position, "
+    "--columns time,left_hip_flexion,... (or write such a line into the file)"
+)
+"""Of a table that begins with numbers."""
+
 
 @dataclass(frozen=True, eq=False)
 class NumericTable:
@@ -131,13 +137,14 @@ def _culprit(
             why = f"{len(cells)} values, but the header has {len(names)} columns"
             return FormatError(path, why, line=number)
         for name, cell in zip(names, cells, strict=True):
-            if not _is_number(cell):
+            if not is_number(cell):
                 shown = cell.strip()[:40]
                 return FormatError(path, f"{name} is {shown!r}, expected a number like 12.5", line=number)
     return FormatError(path, f"cannot be read as numbers: {error}")
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
+    """Whether a cell holds a number."""
     try:
         float(cell)
     except ValueError:

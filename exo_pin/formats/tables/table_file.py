@@ -12,13 +12,16 @@ from exo_pin.anatomy.names import SignPreset
 from exo_pin.files import read_lines
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.csv_table import parse_csv, write_csv
-from exo_pin.formats.tables.mapped_table import mapped_gait
+from exo_pin.formats.tables.mapped_table import mapped_gait, positional_gait
 from exo_pin.formats.tables.metadata import Metadata, read_metadata, to_gait
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 from exo_pin.formats.tables.torque_table import table_torques
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 from exo_pin.gait.torques import Torques
+
+TABLE_SUFFIXES = (".csv", ".tsv", ".txt")
+"""Endings of tables of text."""
 
 _TIME = "time_s"
 _ANGLES = tuple(f"{joint}_deg" for joint in JOINTS)
@@ -39,13 +42,15 @@ class TableFile(TrialFile):
     separator: str
 
     def gait(self, options: ReadOptions) -> Gait:
-        """The walk of the columns; a mapping or another preset names those of a foreign table.
+        """The walk of the columns; a mapping, positions or another preset name those of a foreign table.
 
         Raises:
             FormatError: The file is not such a table, or its numbers are no walk; with line and reason.
             UnknownNameError: The mapping names no joint of `JOINTS`, or there is no such preset.
         """
-        if options.mapping or options.preset not in (None, "exo_pin"):
+        if options.columns:
+            return positional_gait(self.path, self.lines, options)
+        if options.mapping or options.row_rate is not None or options.preset not in (None, "exo_pin"):
             return mapped_gait(self.path, self.lines, options)
         if self.separator == "\t" and (options.units or not self._has_own_names()):
             return mapped_gait(self.path, self.lines, options)
