@@ -9,7 +9,8 @@ from exo_pin.cli import main
 from exo_pin.errors import FormatError
 from exo_pin.formats import is_markers, load_forces, load_gait, load_markers, open_trial, save_gait
 from exo_pin.formats.c3d import header
-from exo_pin.formats.c3d.plates import C3dPlate, force_plates
+from exo_pin.formats.c3d.content import C3dPlate
+from exo_pin.formats.c3d.plates import force_plates
 from exo_pin.gait import Event, Gait, normative_gait
 from exo_pin.markers import load_walk
 
