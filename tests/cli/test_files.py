@@ -277,7 +277,7 @@ def test_force_plates_tell_when_the_feet_struck(capsys, tmp_path, shared):
     code, out, _ = run(capsys, "info", walk, "--forces", subject / "subject01_walk1_grf.mot", "--json")
     sources = [event["source"] for event in json.loads(out)["events"]]
     assert code == 0
-    assert sum(source == "force plate" for source in sources) == 7
+    assert sum(source == "force plate" for source in sources) == 8
     code, _, err = run(capsys, "info", "free", "--forces", subject / "subject01_walk1_grf.mot")
     assert (code, len(err.splitlines())) == (2, 1)
     code, out, err = run(capsys, "cycles", walk, "--forces", walk)
