@@ -136,6 +136,19 @@ def test_missing_markers_are_named(made):
         reconstruct(trial(walk, {name: 50 * path for name, path in paths.items()}, up="+z"))
 
 
+@pytest.mark.parametrize(
+    ("unit", "scale", "word"), [("mm", 1e-3, "metres"), ("m", 1e3, "millimetres"), ("m", 100, "centimetres")]
+)
+def test_lengths_in_another_unit_than_the_file_states_are_named(made, unit, scale, word):
+    """Markers in metres that were read as millimetres are a thousandth of their size."""
+    walk, _, paths = made
+    wrong = trial(walk, {name: scale * path for name, path in paths.items()}, up="+z", unit=unit)
+    with pytest.raises(
+        GaitError, match=rf"no person's.* in {word}\? It would be 1\.\d\d m then; the file says {unit}"
+    ):
+        reconstruct(wrong)
+
+
 def test_a_resized_robot_stands_like_one_built_in_that_size(rng):
     chosen, other = SETS["opensim-gait2354"], SIZES._replace(leg=(0.75, 0.80), thigh=0.52)
     built, robot = human_robot(chosen, other), resized(human_robot(chosen, SIZES), other)
