@@ -8,9 +8,9 @@
 Both know only a `Body` and the meaning of the joint names. All frames are parallel to the pelvis at q = 0.
 """
 
-from exo_pin.dh.craig import DHRow, ends, modified_dh, table
 from exo_pin.dh.device_tree import of_device
 from exo_pin.dh.leg_chain import chain
+from exo_pin.dh.modified_dh_table import DHRow, ends, modified_dh, table
 from exo_pin.dh.recursion import Link, recursion, tree
 
 __all__ = ["DHRow", "Link", "chain", "ends", "modified_dh", "of_device", "recursion", "table", "tree"]

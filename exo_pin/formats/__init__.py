@@ -9,9 +9,9 @@ from exo_pin.formats.loading import (
     load_torques,
     save_gait,
 )
-from exo_pin.formats.presets import PRESETS
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, Format, open_trial
+from exo_pin.formats.sign_presets import PRESETS
 from exo_pin.formats.tables import Poses, load_poses, save_poses
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait.trial import ForcePlate, Markers

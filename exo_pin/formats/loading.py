@@ -9,9 +9,9 @@ from types import MappingProxyType
 from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim import StorageFile, write_gait
-from exo_pin.formats.presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial
+from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait

@@ -6,7 +6,7 @@ from exo_pin.gait.gait import Gait
 from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd, speed_named
 from exo_pin.gait.plausibility import implausibilities
-from exo_pin.gait.reference_values import Norm, against_normal, normal
+from exo_pin.gait.published_ranges import Norm, against_normal, normal
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
 from exo_pin.gait.stance_times import stance_times
 from exo_pin.gait.strides import Stride, side_with_more_strides, strides

@@ -1,12 +1,12 @@
 """Forward kinematics: poses and motion of the links, the centre of mass, contact with the ground."""
 
 from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
-from exo_pin.kinematics.contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
 from exo_pin.kinematics.plate_contacts import plate_events, with_plates
+from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
 
 __all__ = [

@@ -13,11 +13,11 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, Norm, Number, Stride, against_normal, normal, strides
-from exo_pin.gait.reference_values import CITATIONS
+from exo_pin.gait.published_ranges import CITATIONS
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import unrolled
-from exo_pin.kinematics.contact import with_events
 from exo_pin.kinematics.motion import poses
+from exo_pin.kinematics.sole_contact import with_events
 from exo_pin.robot import Robot
 
 

@@ -22,7 +22,7 @@ from exo_pin.gait import (
     implausibilities,
     normal,
     normative_gait,
-    reference_values,
+    published_ranges,
     side_with_more_strides,
     spatiotemporal,
 )
@@ -197,7 +197,7 @@ def test_numbers_are_compared_with_published_ranges_that_name_their_source():
     numbers = spatiotemporal(time, path, events)
     assert against_normal(numbers, leg_length=LEG)["speed"] == "within"
     usual = normal(numbers, leg_length=LEG)
-    assert {norm.source for norm in usual.values()} == set(reference_values.CITATIONS)
+    assert {norm.source for norm in usual.values()} == set(published_ranges.CITATIONS)
     assert {name for name, norm in usual.items() if norm.source == "Schwartz 2008"} >= {
         "cadence",
         "stride_length",

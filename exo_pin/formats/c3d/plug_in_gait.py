@@ -11,7 +11,7 @@ from exo_pin.anatomy.names import Movement, SignPreset
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.c3d.content import C3dContent
-from exo_pin.formats.presets import PRESETS
+from exo_pin.formats.sign_presets import PRESETS
 from exo_pin.formats.tables.metadata import Metadata, to_gait
 from exo_pin.formats.tables.torque_table import to_torques
 from exo_pin.gait import Gait

@@ -18,7 +18,7 @@ from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, LEG_COORDINA
 from exo_pin.formats.opensim.osim_joint import Joint
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
 from exo_pin.formats.opensim.pelvis_axes import PELVIS_ROTATIONS, pelvis_joint, zxy
-from exo_pin.formats.presets import Point
+from exo_pin.formats.sign_presets import Point
 
 _POSITIVE_AXIS: dict[str, tuple[int, int, int]] = {
     "hip_flexion": (0, 0, 1),

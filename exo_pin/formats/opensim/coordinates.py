@@ -17,8 +17,8 @@ from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, KNEES, LEG_C
 from exo_pin.formats.opensim.coordinate_table import TIME_COLUMN, coordinate_table
 from exo_pin.formats.opensim.pelvis_axes import from_opensim
 from exo_pin.formats.opensim.storage import Storage
-from exo_pin.formats.presets import OPENSIM_PRESETS, Preset, find_preset, inferred_preset, preset_of_knee
 from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.sign_presets import OPENSIM_PRESETS, Preset, find_preset, inferred_preset, preset_of_knee
 from exo_pin.formats.tables.metadata import read_metadata, to_gait
 from exo_pin.formats.units import ANGLE_UNITS, RADIANS_PER
 from exo_pin.gait import Gait

@@ -7,7 +7,7 @@ from exo_pin.anatomy.names import SignPreset
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, KNEES
 from exo_pin.formats.opensim.storage import Storage
-from exo_pin.formats.presets import OPENSIM_PRESETS, find_preset
+from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.tables.torque_table import to_torques, torque_columns
 from exo_pin.gait.torques import Torques
 

@@ -9,7 +9,7 @@ import numpy as np
 from exo_pin.formats.opensim.coordinate_names import KNEES, LEG_COORDINATES
 from exo_pin.formats.opensim.pelvis_axes import PELVIS_ANGLES, PELVIS_TRANSLATIONS, to_opensim
 from exo_pin.formats.opensim.storage import write_storage
-from exo_pin.formats.presets import PRESETS, Preset
+from exo_pin.formats.sign_presets import PRESETS, Preset
 from exo_pin.formats.tables.metadata import Metadata, comment_lines
 from exo_pin.gait import Gait
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import AngleUnit
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.formats.presets import find_preset
 from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.sign_presets import find_preset
 from exo_pin.formats.tables.numeric_table import HEADERLESS, is_number
 from exo_pin.formats.units import ANGLE_UNITS, angle_unit
 
