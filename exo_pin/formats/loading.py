@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import TypeVar
 
 from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
 from exo_pin.errors import FormatError
@@ -15,8 +17,11 @@ from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
+from exo_pin.gait.even_clock import even_clock
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
+
+_Record = TypeVar("_Record", Gait, Markers)
 
 
 def load_gait(
@@ -31,6 +36,8 @@ def load_gait(
     row_rate: float | None = None,
 ) -> Gait:
     """Read a walk from a file with joint angles.
+
+    Time stamps that the file rounded are put back on their even grid; `remarks` states it.
 
     Args:
         path: A file in one of `FORMATS`, at most 128 MiB, or one that `open_trial` has read.
@@ -65,7 +72,7 @@ def load_gait(
     order = None if pelvis_order is None else tuple(pelvis_order)
     osim = None if model is None else Path(model)
     options = ReadOptions(preset, mapping, units, osim, order, tuple(columns), row_rate)
-    return (file or open_trial(name)).gait(options)
+    return _on_even_clock((file or open_trial(name)).gait(options))
 
 
 def load_markers(path: str | Path | TrialFile) -> Markers:
@@ -74,7 +81,7 @@ def load_markers(path: str | Path | TrialFile) -> Markers:
     Raises:
         FormatError: The file cannot be read; with file, reason and, in texts, line.
     """
-    return _opened(path, "markers").markers()
+    return _on_even_clock(_opened(path, "markers").markers())
 
 
 def load_torques(
@@ -97,7 +104,9 @@ def load_torques(
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
         UnknownNameError: There is no such preset.
     """
-    return _opened(path, "torques").torques(preset, mass)
+    torques = _opened(path, "torques").torques(preset, mass)
+    even = even_clock(torques.time)  # as the walk's, so that both keep the same clock
+    return torques if even is None else replace(torques, time=even)
 
 
 def load_forces(path: str | Path | TrialFile) -> tuple[ForcePlate, ...]:
@@ -157,6 +166,18 @@ def save_gait(gait: Gait, path: str | Path, *, preset: SignPreset | None = None)
     write = find_format(path, "angles", {key: entry for key, entry in FORMATS.items() if entry.write}).write
     assert write is not None  # the formats that cannot be written are left out
     write(gait, path)
+
+
+def _on_even_clock(record: _Record) -> _Record:
+    """The record with rounded time stamps on their even grid, before anybody differentiates."""
+    even = even_clock(record.time)
+    if even is None:
+        return record
+    moved = 1e3 * float(abs(even - record.time).max())
+    how = f"time stamps, rounded by the file, are evened to {1 / (even[1] - even[0]):.6g} Hz"
+    remark = f"{how} (moved by {moved:.2g} ms at most)"
+    events = tuple(replace(e, time=min(max(e.time, float(even[0])), float(even[-1]))) for e in record.events)
+    return replace(record, time=even, events=events, remarks=(*record.remarks, remark))
 
 
 def _opened(path: str | Path | TrialFile, content: Content) -> TrialFile:

@@ -50,13 +50,15 @@ def path(tmp_path):
     return tmp_path / "walk.mot"
 
 
-def test_units_may_be_told_where_the_header_does_not_and_must_not_contradict_it(path):
+def test_units_by_the_user_win_where_the_numbers_agree(path):
     path.write_text(storage(degrees(), header=("name walk.mot", "datacolumns 13", "datarows 5")))
-    told = load_gait(path, units="deg")
+    given = load_gait(path, units="deg")
     path.write_text(storage(degrees()))
-    np.testing.assert_array_equal(told.q, load_gait(path, units="deg").q)
-    refused(path, storage(degrees()), "given as rad, but the header has inDegrees=yes", units="rad")
-    refused(path, storage(degrees(), header=("x",)), "or that you give the units", units="grad")
+    np.testing.assert_array_equal(given.q, load_gait(path, units="deg").q)
+    refused(path, storage(degrees()), "given as rad, but knee_angle_l reaches 60: degrees", units="rad")
+    path.write_text(storage(degrees(), header=("x",)))
+    with pytest.raises(UnknownNameError, match="unit of angles 'grad'"):
+        load_gait(path, units="grad")
 
 
 def test_each_coordinate_becomes_its_joint(path):
@@ -104,18 +106,16 @@ def test_slight_hyperextension_does_not_hide_the_sign(path):
     refused(path, storage(values), "not clear")
 
 
-def test_radians_and_degrees_are_told_by_the_header_only(path):
+def test_radians_and_degrees_are_those_of_the_header(path):
     path.write_text(storage(degrees()))
     expected = load_gait(path).q
     values = degrees()
     values[:, 1:] = np.radians(values[:, 1:])
     path.write_text(storage(values, header=("Coordinates", "inDegrees = no")))
     np.testing.assert_allclose(load_gait(path).q, expected, atol=1e-9)
-    refused(path, storage(degrees(), header=("Coordinates",)), "no inDegrees in the header")
-    refused(path, storage(degrees(), header=("Coordinates", "inDegrees=maybe")), "inDegrees='maybe'")
-    refused(
-        path, storage(degrees(), header=("x", "inDegrees=no")), "more than half a turn; expected radians", 5
-    )
+    assert load_gait(path).remarks == ()
+    for header in ((), ("inDegrees=maybe",)):
+        refused(path, storage(values, header=("Coordinates", *header)), "or that you give the units")
 
 
 def test_long_names_speeds_and_old_headers_are_understood(path):
@@ -134,15 +134,7 @@ def test_long_names_speeds_and_old_headers_are_understood(path):
     np.testing.assert_array_equal(load_gait(path).q, expected)
 
 
-def test_a_truncated_file_is_refused_and_a_huge_claim_costs_nothing(path):
-    for header, match in (
-        (("nRows=6",), "header says 6 rows, the file has 5"),
-        (("datacolumns 12",), "header says 12 columns, the file has 13"),
-        (("nRows=999999999999999",), "header says 999999999999999 rows"),
-        (("nRows=" + "9" * 5000,), "expected a whole number"),
-        (("nRows=-1",), "expected a whole number"),
-    ):
-        refused(path, storage(degrees(), header=("Coordinates", "inDegrees=yes", *header)), match)
+def test_a_damaged_table_is_refused(path):
     refused(path, storage(degrees())[:-9], "11 values, but the header has 13", 10)
     refused(path, "Coordinates\nversion=1\n", "no line 'endheader'")
     refused(path, "Coordinates\nendheader\n\n", "no column names", 2)
@@ -154,30 +146,6 @@ def test_a_hundred_thousand_columns_are_no_hindrance(path):
     rows = ("\t".join([*map(str, row), "0\t" * many]) for row in degrees())
     path.write_text("\n".join(["Coordinates", "inDegrees=yes", "endheader", header, *rows]))
     assert load_gait(path).q.shape == (5, 12)
-
-
-def test_missing_coordinates_are_named(path):
-    names = ["x" if name == "subtalar_angle_l" else name for name in NAMES]
-    refused(path, storage(degrees(), names), "missing coordinates: subtalar_angle_l", 5)
-    with_tilt = [*NAMES, "pelvis_tilt", "pelvis_tx"]
-    values = np.hstack([degrees(), np.zeros((5, 2))])
-    refused(path, storage(values, with_tilt), "pelvis_list, pelvis_rotation, pelvis_ty, pelvis_tz", 5)
-    twice = [*NAMES, "/jointset/knee_r/knee_angle_r/value", "other"]
-    refused(path, storage(values, twice), "'knee_angle_r' occurs more than once", 5)
-
-
-def test_a_joint_that_the_model_lacks_is_held_at_a_number(path):
-    names = ["x" if name.startswith("subtalar") else name for name in NAMES]
-    names[5] = "y"
-    refused(path, storage(degrees(), names), "0=left_ankle_inversion,right_ankle_inversion", 5)
-    gait = load_gait(path, mapping={"0": "left_ankle_inversion", "-5": "right_ankle_inversion"})
-    np.testing.assert_allclose(np.degrees(gait.q[:, [5, 11]]), [[0, -5]] * 5, atol=1e-9)
-    assert "so held: subtalar_angle_l, subtalar_angle_r" in gait.source
-    refused(
-        path, storage(degrees(), names), "only a number, which holds", mapping={"x": "left_ankle_inversion"}
-    )
-    with pytest.raises(UnknownNameError, match="joint 'ankle'"):
-        load_gait(path, mapping={"0": "ankle"})
 
 
 def test_gaps_matter_only_in_the_columns_that_are_read(path):
@@ -257,7 +225,7 @@ def test_the_recorded_pelvis_agrees_with_opensims_own_kinematics(shared, angles,
     np.testing.assert_allclose(gait.base[:, :3, :3], ours @ R @ ours.T, atol=FILE)
     position = (pelvis[:, :3] + R @ GENERIC_OFFSET) @ ours.T
     np.testing.assert_allclose(gait.base[:, :3, 3], position, atol=FILE)
-    np.testing.assert_allclose(gait.time, [float(row["time"]) for row in rows], atol=1e-6)
+    np.testing.assert_allclose(gait.time, [float(row["time"]) for row in rows], atol=5.1e-4)  # milliseconds
 
 
 def test_the_recording_is_a_walk_of_an_adult(shared):

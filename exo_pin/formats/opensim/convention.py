@@ -14,7 +14,7 @@ from exo_pin.anatomy import MOVEMENTS, SIDES, joint
 from exo_pin.anatomy.names import PelvisRotation, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
-from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, LEG_COORDINATES
+from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF
 from exo_pin.formats.opensim.osim_joint import Joint
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
 from exo_pin.formats.opensim.pelvis_axes import PELVIS_ROTATIONS, pelvis_joint, zxy
@@ -62,10 +62,6 @@ class Convention(NamedTuple):
         """Names of the pelvis's coordinates."""
         return tuple(dict.fromkeys(name for joint in self.chain for name in joint.coordinates))
 
-    def with_defaults(self, values: Mapping[str, float]) -> Convention:
-        """The same convention with further coordinates that a file need not name."""
-        return self._replace(defaults={**self.defaults, **values})
-
     @property
     def pelvis_angles(self) -> tuple[str, ...]:
         """Names of those that are angles."""
@@ -104,10 +100,9 @@ def model_convention(path: str | Path) -> Convention:
         if not all(axis.linear for axis in (*link.rotations, *link.translations)):
             raise FormatError(model.path, f"joint {link.name!r} moves along curves; expected axes")
     x, y, z = np.mean([_centre(hip) for hip in hips.values()], axis=0).tolist()
-    defaults = dict.fromkeys(LEG_COORDINATES, 0.0) | model.defaults
     order = ", ".join(name for link in chain for name in link.coordinates)
     description = f"pelvis ({order}), mid-hip and signs as {model.path.name} has them"
-    return Convention(chain, (x, y, z), signs, defaults, odd, description)
+    return Convention(chain, (x, y, z), signs, model.defaults, odd, description)
 
 
 def hip_angles(hip: Joint, side: Side, values: Mapping[str, Array]) -> Array:

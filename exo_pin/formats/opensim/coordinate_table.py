@@ -1,58 +1,73 @@
-"""The table of a file of OpenSim coordinates, checked to hold all that a walk needs."""
+"""The table of a file of OpenSim coordinates, under plain names; which coordinates it may lack."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter
-from pathlib import Path
+from collections.abc import Collection, Iterable
 
 from exo_pin.errors import FormatError
-from exo_pin.formats.opensim.convention import Convention
 from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, LEG_COORDINATES
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.tables.numeric_table import NumericTable
 
 TIME_COLUMN = "time"
 
+NEEDED = tuple(
+    name for name in LEG_COORDINATES if name.startswith(("hip_flexion", "knee_angle", "ankle_angle"))
+)
+"""Coordinates without which there is no walk; models lock or lack the others (subtalar joint, planar hip)."""
+
 _DERIVATIVES = ("speeds", "velocities", "accelerations")
 """Titles of OpenSim's files with the same column names but other contents."""
 
+_SHOWN = 6
+"""Column names in a message."""
 
-def coordinate_table(storage: Storage, convention: Convention) -> NumericTable:
+
+def coordinate_table(storage: Storage) -> NumericTable:
     """The table with plain coordinate names.
 
     Raises:
-        FormatError: It holds no coordinates, one twice, or lacks one that has no default.
+        FormatError: It holds no coordinates.
     """
     table, path = storage.table, storage.table.path
-    line = table.lines[0] - 1
     if storage.title.lower() in _DERIVATIVES:
         raise FormatError(
             path, f"titled {storage.title[:40]!r}; expected coordinates, not their derivatives", line=1
         )
     names = tuple(_plain(name) for name in table.names)
-    count = Counter(names)
-    twice = [name for name in (TIME_COLUMN, *LEG_COORDINATES, *convention.pelvis) if count[name] > 1]
-    if twice:
-        raise FormatError(path, f"coordinate {twice[0]!r} occurs more than once", line=line)
-    _check_complete(path, names, convention, line)
-    return NumericTable(path, names, table.values, table.lines)
+    plain = NumericTable(path, names, table.values, table.lines)
+    if not set(LEG_COORDINATES) & set(names):
+        raise FormatError(path, _instead(table.names), line=table.lines[0] - 1)
+    return plain
 
 
-def _check_complete(path: Path, names: tuple[str, ...], convention: Convention, line: int) -> None:
-    """Raises `FormatError` where a coordinate misses that has no default."""
-    known = {*names, *convention.defaults}
-    absent = [name for name in (TIME_COLUMN, *LEG_COORDINATES) if name not in known]
-    if absent and any(re.search(r"force|moment|torque", name, re.IGNORECASE) for name in names):
-        raise FormatError(
-            path, "holds forces or moments; expected joint coordinates (inverse kinematics)", line=line
-        )
-    pelvis = [name for name in convention.pelvis if name not in known]
-    if absent or 0 < len(pelvis) < len(convention.pelvis):
+def check_complete(table: NumericTable, given: Collection[str], used: Iterable[str]) -> None:
+    """Check that a walk can be made.
+
+    Args:
+        table: With plain names.
+        given: Coordinates that the user holds at a number.
+        used: Coordinates that are read; each may occur once.
+
+    Raises:
+        FormatError: A needed coordinate misses, or one that is used occurs twice.
+    """
+    absent = [name for name in (TIME_COLUMN, *NEEDED) if name not in table.names and name not in given]
+    if absent:
         joints = ",".join(name for name, column in COORDINATE_OF.items() if column in absent)
-        hint = f"; a model (.osim) may do without, a mapping holds joints at a number: 0={joints}"
-        why = f"missing coordinates: {', '.join(absent or pelvis)}{hint if joints else ''}"
-        raise FormatError(path, why, line=line)
+        hint = f"; a mapping holds joints at a number: 0={joints}" if joints else ""
+        why = f"missing coordinates: {', '.join(absent)}{hint}"
+        raise FormatError(table.path, why, line=table.lines[0] - 1)
+    table.refuse_repeated((TIME_COLUMN, *used))
+
+
+def _instead(names: tuple[str, ...]) -> str:
+    """What a table without joint coordinates holds."""
+    if any(re.search(r"force|moment|torque", name, re.IGNORECASE) and "/" not in name for name in names):
+        return "holds forces or moments; expected joint coordinates (inverse kinematics)"
+    shown = ", ".join(name[:40] for name in names[:_SHOWN]) + " ..." * (len(names) > _SHOWN)
+    return f"missing coordinates: none of hip_flexion_r, knee_angle_r ... (columns: {shown})"
 
 
 def _plain(name: str) -> str:

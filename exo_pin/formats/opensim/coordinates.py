@@ -12,16 +12,21 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import PelvisRotation, SignPreset
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.formats.opensim.angle_units import in_degrees
 from exo_pin.formats.opensim.convention import Convention, default_convention, hip_angles, model_convention
 from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF, KNEES, LEG_COORDINATES
-from exo_pin.formats.opensim.coordinate_table import TIME_COLUMN, coordinate_table
+from exo_pin.formats.opensim.coordinate_table import TIME_COLUMN, check_complete, coordinate_table
 from exo_pin.formats.opensim.pelvis_axes import from_opensim
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.sign_presets import OPENSIM_PRESETS, Preset, find_preset, inferred_preset, preset_of_knee
 from exo_pin.formats.tables.metadata import read_metadata, to_gait
-from exo_pin.formats.units import ANGLE_UNITS, RADIANS_PER
+from exo_pin.formats.tables.numeric_table import NumericTable
+from exo_pin.formats.units import RADIANS_PER
 from exo_pin.gait import Gait
+
+_FURTHEST = 1e4
+"""From the origin of a laboratory [m]; a pelvis beyond is a damaged number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,12 +38,14 @@ class _Coordinates:
         values: Coordinate -> `(n,)` [rad, m].
         held: Those that the file does not have.
         has_pelvis: Whether it has any of the pelvis.
+        remarks: What was held and left out, a sentence each.
     """
 
     time: Array
     values: dict[str, Array]
     held: list[str]
     has_pelvis: bool
+    remarks: list[str]
 
 
 def coordinates_gait(storage: Storage, options: ReadOptions) -> Gait:
@@ -49,23 +56,24 @@ def coordinates_gait(storage: Storage, options: ReadOptions) -> Gait:
     put midway between the hips with the *generic* model's offset (gait2392: (-0.0707, -0.0661, 0) m in the
     pelvis), and the knee's sign comes from the preset, if one is named, else from our own header line, else
     from the angles where at least 90 % of the excursion lies on one side; `source` states all that. OpenSim's
-    axes (x forward, y up, z right) become this package's. Toes, trunk and arms are left out.
+    axes (x forward, y up, z right) become this package's. Toes, trunk and arms are left out. Hip adduction
+    and rotation, ankle inversion and single pelvis coordinates that the file lacks are held at the model's
+    default, else at zero, and `remarks` names them.
 
     Args:
         storage: The file.
-        options: Preset, units, model, order of the pelvis's rotations; the mapping holds joints at numbers.
+        options: Preset, units, model, order of the pelvis's rotations; the mapping holds joints or the
+            pelvis's coordinates at numbers.
 
     Raises:
-        FormatError: With file, line and reason: forces, velocities, missing coordinates, no `inDegrees`,
-            or a knee whose sign is not clear.
+        FormatError: With file, line and reason: forces, velocities, a missing flexion of hip, knee or ankle,
+            units or a knee's sign that are not clear.
         UnknownNameError: There is no such preset.
     """
     path = storage.table.path
     chosen = None if options.preset is None else find_preset(options.preset, OPENSIM_PRESETS)
-    degrees = _in_degrees(storage, options.units)
     convention = _convention(options.model, options.pelvis_order)
-    convention = convention.with_defaults(_held_by_user(path, options.mapping, degrees))
-    found = _coordinates(storage, convention, degrees)
+    found = _coordinates(storage, convention, options)
     chosen, how = (chosen, "as told") if chosen else _knee_preset(storage, found.values, convention)
     base = None
     if found.has_pelvis and chosen.mid_hip is not None:
@@ -77,13 +85,14 @@ def coordinates_gait(storage: Storage, options: ReadOptions) -> Gait:
         source += [convention.description] if base is not None or options.model else []
         source += [f"not in the file, so held: {', '.join(found.held)}"] if found.held else []
         metadata = metadata._replace(source="; ".join(source))
+    metadata = metadata._replace(remarks=(*storage.remarks, *found.remarks))
     return to_gait(path, found.time, _leg_angles(found.values, chosen, convention), base, metadata)
 
 
 def knee_preset(storage: Storage, model: Path | None = None) -> SignPreset:
     """The preset whose signs a file of coordinates has, as `coordinates_gait` finds it; errors as there."""
     convention = _convention(model, None)
-    found = _coordinates(storage, convention, _in_degrees(storage, None))
+    found = _coordinates(storage, convention, ReadOptions())
     return _knee_preset(storage, found.values, convention)[0].name
 
 
@@ -101,52 +110,84 @@ def _leg_angles(values: Mapping[str, Array], chosen: Preset, convention: Convent
     return q
 
 
-def _coordinates(storage: Storage, convention: Convention, degrees: bool) -> _Coordinates:
-    """Coordinates of legs and pelvis, those that are not in the file at the convention's defaults."""
-    table = coordinate_table(storage, convention)
-    time = table.times(TIME_COLUMN)
+def _coordinates(storage: Storage, convention: Convention, options: ReadOptions) -> _Coordinates:
+    """Coordinates of legs and pelvis [rad, m]; those that are not in the file are held."""
+    table = coordinate_table(storage)
+    degrees, remarks = in_degrees(table, storage.keys, options.units)
+    given = _held_by_user(table.path, options.mapping, convention, degrees)
     wanted = list(dict.fromkeys([*LEG_COORDINATES, *convention.pelvis]))
+    check_complete(table, given, wanted)
     present = [name for name in wanted if name in table.names]
-    lengths = [name for name in present if name not in (*LEG_COORDINATES, *convention.pelvis_angles)]
-    angles = [name for name in present if name not in lengths]
-    has_pelvis = bool(set(convention.pelvis) & set(present))
-    table.refuse(np.isnan(table.columns(present)), present, "expected a finite number")
-    # refuses what is absurd
-    table.angles([name for name in angles if name in LEG_COORDINATES], degrees=degrees)
-    values = dict(zip(angles, table.columns(angles).T * (np.pi / 180 if degrees else 1.0), strict=True))
-    values |= dict(zip(lengths, table.columns(lengths).T, strict=True))
+    table, doubled = table.once_each_time(TIME_COLUMN, present)
+    if doubled:
+        remarks.append(f"rows that repeat time and values of the row above: {doubled}, left out")
+    time = table.times(TIME_COLUMN)
+    values = _present(table, present, convention, degrees)
+    has_pelvis = bool(set(convention.pelvis) & {*present, *given})
     held = [name for name in (wanted if has_pelvis else LEG_COORDINATES) if name not in values]
-    values |= {name: np.full(len(time), convention.defaults.get(name, 0.0)) for name in held}
-    return _Coordinates(time, values, held, has_pelvis)
+    at = {name: given.get(name, convention.defaults.get(name, 0.0)) for name in held}
+    values |= {name: np.full(len(time), value) for name, value in at.items()}
+    remarks += _held_remarks(at, given, convention)
+    return _Coordinates(time, values, held, has_pelvis, remarks)
 
 
-def _held_by_user(path: Path, mapping: Mapping[str, str], degrees: bool) -> dict[str, float]:
-    """Coordinates that the user holds at a number [rad]; other names need no mapping here."""
+def _present(
+    table: NumericTable, names: list[str], convention: Convention, degrees: bool
+) -> dict[str, Array]:
+    """The file's coordinates [rad, m]."""
+    table.refuse(~np.isfinite(table.columns(names)), names, "expected a finite number")
+    legs = [name for name in names if name in LEG_COORDINATES]
+    table.angles(legs, degrees=degrees)  # refuses what is absurd
+    angles = {*legs, *convention.pelvis_angles}
+    lengths = [name for name in names if name not in angles]
+    far = np.abs(table.columns(lengths)) > _FURTHEST
+    table.refuse(far, lengths, f"more than {_FURTHEST:g} m away; expected metres")
+    scale = RADIANS_PER["deg" if degrees else "rad"]
+    columns = zip(names, table.columns(names).T, strict=True)
+    return {name: column * (scale if name in angles else 1.0) for name, column in columns}
+
+
+def _held_remarks(at: Mapping[str, float], given: Mapping[str, float], convention: Convention) -> list[str]:
+    """What is held, where and by whom, a sentence each."""
+    lengths = {*convention.pelvis} - {*convention.pelvis_angles}
+    said = {
+        name: f"{name} at {value:g} m" if name in lengths else f"{name} at {np.degrees(value):g} deg"
+        for name, value in at.items()
+    }
+    by_model = [name for name in at if name not in given and name in convention.defaults]
+    groups = {
+        "as mapped": [name for name in at if name in given],
+        "the model's default": by_model,
+        "the model lacks them" if convention.defaults else "no model is given": [
+            name for name in at if name not in given and name not in by_model
+        ],
+    }
+    return [
+        f"not in the file, so held: {', '.join(said[name] for name in names)} ({why})"
+        for why, names in groups.items()
+        if names
+    ]
+
+
+def _held_by_user(
+    path: Path, mapping: Mapping[str, str], convention: Convention, degrees: bool
+) -> dict[str, float]:
+    """Coordinates that the user holds at a number [rad, m]; other names need no mapping here."""
+    known = COORDINATE_OF | {name: name for name in (*LEG_COORDINATES, *convention.pelvis)}
+    lengths = {*convention.pelvis} - {*convention.pelvis_angles}
     held = {}
     for key, names in mapping.items():
-        for name in names.split(","):
-            if name.strip() not in COORDINATE_OF:
-                raise UnknownNameError("joint", name.strip(), JOINTS)
+        for name in map(str.strip, names.split(",")):
+            if name not in known:
+                raise UnknownNameError("joint", name, (*JOINTS, *convention.pelvis))
             try:
-                held[COORDINATE_OF[name.strip()]] = float(key) * RADIANS_PER["deg" if degrees else "rad"]
+                number = float(key)
             except ValueError:
                 why = f"mapping {key[:40]!r}: only a number, which holds a joint, is mapped here"
                 raise FormatError(path, why) from None
+            scale = 1.0 if known[name] in lengths else RADIANS_PER["deg" if degrees else "rad"]
+            held[known[name]] = number * scale
     return held
-
-
-def _in_degrees(storage: Storage, chosen: str | None) -> bool:
-    """Whether angles are in degrees, by the header, or as the user chose where it does not state it."""
-    path, stated = storage.table.path, storage.keys.get("indegrees")
-    if stated is None and chosen in ANGLE_UNITS:
-        return chosen == "deg"
-    if stated is None or stated.lower() not in ("yes", "no"):
-        found = "no inDegrees" if stated is None else f"inDegrees={stated[:20]!r}"
-        why = f"{found} in the header; expected inDegrees=yes or inDegrees=no"
-        raise FormatError(path, f"{why}, or that you give the units (deg or rad)")
-    if chosen and (chosen == "deg") != (stated.lower() == "yes"):
-        raise FormatError(path, f"units are given as {chosen}, but the header has inDegrees={stated}")
-    return stated.lower() == "yes"
 
 
 def _knee_preset(storage: Storage, values: Mapping[str, Array], convention: Convention) -> tuple[Preset, str]:

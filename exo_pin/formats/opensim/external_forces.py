@@ -20,6 +20,10 @@ _FORCE_COLUMN = re.compile(
 """`1_ground_force_vx`, `ground_force_1_vx`, `ground_force_l_px`, `ground_torque_x`, `l_ground_moment_mx`."""
 
 
+_LARGEST_FORCE = 1e5
+"""No foot presses more on a plate [N]; a larger number is damaged."""
+
+
 def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
     """The force plates of a storage file; OpenSim's axes (y up) become this package's (z up).
 
@@ -34,6 +38,9 @@ def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
     groups = _groups(table.names)
     if not groups:
         raise FormatError(path, "no ground reaction forces; expected columns like ground_force_vx")
+    used = list(dict.fromkeys(name for columns in groups.values() for name in columns.values()))
+    table.refuse_repeated(["time", *used])
+    table, _ = table.once_each_time("time", used)
     time = table.times("time")
     return tuple(_plate(table, time, name, columns) for name, columns in groups.items())
 
@@ -61,5 +68,6 @@ def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str])
         values = table.columns(names)
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
+            table.refuse(np.abs(values) > _LARGEST_FORCE, names, f"more than {_LARGEST_FORCE:g} N")
         parts.append(np.nan_to_num(values) @ FROM_OPENSIM.T)
     return ForcePlate(f"force plate {name}".strip(), time, *parts)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import SignPreset
 from exo_pin.errors import FormatError
@@ -21,14 +23,14 @@ def inverse_dynamics(storage: Storage, name: SignPreset | None) -> Torques:
     A generalised force is positive along its coordinate, so only the sign of the knee depends on the model.
 
     Args:
-        storage: A file without gaps.
+        storage: A file without gaps in these columns.
         name: The preset of the model; the file does not name it.
 
     Raises:
         FormatError: There are no moments, or nothing tells the sign of the knee.
         UnknownNameError: There is no such preset.
     """
-    table = storage.without_gaps()
+    table = storage.table
     path, line = table.path, table.lines[0] - 1
     columns = {joint: f"{coordinate}{_ENDING}" for joint, coordinate in COORDINATE_OF.items()}
     present = {joint: column for joint, column in columns.items() if column in table.names}
@@ -39,6 +41,10 @@ def inverse_dynamics(storage: Storage, name: SignPreset | None) -> Torques:
     if name is None and set(knees) & set(present):
         why = "inverse dynamics do not tell the sign of the model's knee; name the model with a preset: "
         raise FormatError(path, why + ", ".join(OPENSIM_PRESETS))
+    used = list(present.values())
+    table.refuse_repeated(["time", *used])
+    table.refuse(~np.isfinite(table.columns(used)), used, "expected a finite number")
+    table, _ = table.once_each_time("time", used)
     tau = torque_columns(table, present)
     tau[:, [JOINTS.index(joint) for joint in knees]] *= (
         1 if name is None else find_preset(name, OPENSIM_PRESETS).knee

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
-
-import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
@@ -29,25 +26,22 @@ class Storage(NamedTuple):
         title: First line, e.g. `Coordinates`.
         keys: Header entries, keys in lower case, e.g. `{"indegrees": "yes"}`.
         comments: Header lines `# key: value`, which only files of this package have.
-        table: All columns, under the file's own names; cells may be NaN.
+        table: All columns, under the file's own names, of which some may be repeated; cells may be NaN.
+        remarks: What of its header is not so, a sentence each.
     """
 
     title: str
     keys: dict[str, str]
     comments: list[Comment]
     table: NumericTable
-
-    def without_gaps(self) -> NumericTable:
-        """The table; raises `FormatError` where a cell is NaN."""
-        self.table.refuse(np.isnan(self.table.values), self.table.names, "expected a finite number")
-        return self.table
+    remarks: tuple[str, ...] = ()
 
 
 def read_storage(path: Path) -> Storage:
-    """Read a storage file; the size that it states must be true, and is never trusted.
+    """Read a storage file; the size that it states is never trusted, and remarked on where it is not so.
 
     Raises:
-        FormatError: It is not such a file, or cut short.
+        FormatError: It is not such a file, its table is ragged, or its cells are vectors or quaternions.
     """
     lines = read_lines(path)
     end = next(
@@ -66,26 +60,40 @@ def read_storage(path: Path) -> Storage:
     start = next((i for i in range(end + 1, len(lines)) if lines[i].strip()), None)
     if start is None:
         raise FormatError(path, "no column names after 'endheader'", line=end + 1)
-    names = lines[start].strip().split("\t") if "\t" in lines[start].strip() else lines[start].split()
-    names = [name.strip() for name in names]
-    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=None, gaps=True)
-    _check_size(path, keys, table)
-    return Storage(lines[0].strip(), keys, comments_in(lines[:end]), table)
+    cells = lines[start].split("\t") if "\t" in lines[start].strip() else lines[start].split()
+    names = [name.strip() for name in cells if name.strip()]
+    _check_cells(path, keys, lines[start + 1 :], start + 2)
+    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=None, gaps=True, repeated=True)
+    return Storage(lines[0].strip(), keys, comments_in(lines[:end]), table, _size_remarks(keys, table))
 
 
-def _check_size(path: Path, keys: dict[str, str], table: NumericTable) -> None:
-    """A file that holds less than it states was cut short."""
+def _check_cells(path: Path, keys: dict[str, str], rows: Sequence[str], first: int) -> None:
+    """Refuse cells of several numbers with commas between: quaternions of sensors, vectors."""
+    number, row = next(((k, row) for k, row in enumerate(rows, first) if row.strip()), (first, ""))
+    commas = max((cell.count(",") for cell in row.split()), default=0)
+    stated = keys.get("datatype", "").lower()
+    if stated == "quaternion" or commas == 3:
+        why = "holds orientations of sensors (quaternions), not joint angles; run OpenSim's IMU inverse "
+        raise FormatError(
+            path, why + "kinematics (OpenSense) first and read the .mot that it writes", line=number
+        )
+    if commas > 1:
+        why = f"its cells hold {commas + 1} numbers each (vectors); expected one number a cell, as joint "
+        raise FormatError(path, why + "coordinates have", line=number)
+
+
+def _size_remarks(keys: dict[str, str], table: NumericTable) -> tuple[str, ...]:
+    """Where the header states another size than the table has; OpenSim reads the table, so is done here."""
     size = dict(zip(("rows", "columns"), table.values.shape, strict=True))
+    found = []
     for key, what in _SIZE_KEYS.items():
-        if key not in keys:
-            continue
-        stated = keys[key]
-        if not re.fullmatch(r"\d{1,15}", stated):
-            raise FormatError(path, f"header says {key} {stated[:40]!r}, expected a whole number")
-        if int(stated) != size[what]:
-            raise FormatError(
-                path, f"header says {stated} {what}, the file has {size[what]}; cut short or edited?"
-            )
+        stated = keys.get(key, str(size[what])).lstrip("0") or "0"
+        if stated != str(size[what]):
+            fewer = stated.isdigit() and (len(stated), stated) > (len(str(size[what])), str(size[what]))
+            end = "cut short, or the header was not renewed" if fewer else "the header was not renewed"
+            shown = stated[:20] + "..." * (len(stated) > 20)
+            found.append(f"the header says {shown} {what}, the table has {size[what]}, which are read: {end}")
+    return tuple(found)
 
 
 def write_storage(

@@ -11,6 +11,7 @@ import numpy as np
 
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError
+from exo_pin.gait.event import SAME_TIME
 
 MOST_ROWS = 2_000_000
 """Of a table: five hours at 100 Hz; bounds memory (a walk of this size takes 1.2 GB)."""
@@ -28,7 +29,7 @@ class NumericTable:
 
     Attributes:
         path: The file.
-        names: Column names, without duplicates.
+        names: Column names; only a storage file may repeat one, and then not one that is read.
         values: `(n, m)`.
         lines: Line number of each row, counted from 1.
     """
@@ -41,6 +42,42 @@ class NumericTable:
     def columns(self, names: Iterable[str]) -> Array:
         """`(n, k)` values of the named columns, in that order."""
         return self.values[:, [self.names.index(name) for name in names]]
+
+    def refuse_repeated(self, names: Iterable[str]) -> None:
+        """Raise `FormatError` for one of these columns that the table has more than once."""
+        count = Counter(self.names)
+        twice = next((name for name in names if count[name] > 1), None)
+        if twice is not None:
+            raise FormatError(
+                self.path, f"column {twice[:80]!r} occurs more than once", line=self.lines[0] - 1
+            )
+
+    def once_each_time(self, time: str, names: Sequence[str]) -> tuple[NumericTable, int]:
+        """The table without rows that repeat time and values of the row above, and how many were left out.
+
+        OpenSim's RRA and CMC write such rows where they restart.
+
+        Args:
+            time: Column of the time.
+            names: Columns that must be the same, NaN being the same as NaN.
+
+        Raises:
+            FormatError: A time comes twice, with different values.
+        """
+        used = self.columns([time, *names])
+        same = np.flatnonzero(np.abs(np.diff(used[:, 0])) < SAME_TIME) + 1
+        if not same.size:
+            return self, 0
+        differs = ~np.isclose(used[same], used[same - 1], rtol=0, atol=1e-9, equal_nan=True)
+        if differs.any():
+            row, k = np.argwhere(differs)[0]
+            row = same[row]
+            why = f"time {used[row, 0]:.12g} comes twice, with {[time, *names][k]} {used[row - 1, k]:.9g} and"
+            why += f" {used[row, k]:.9g}; expected increasing seconds, or the same row again"
+            raise FormatError(self.path, why, line=self.lines[row])
+        kept = np.setdiff1d(np.arange(len(used)), same)
+        lines = [self.lines[row] for row in kept]
+        return NumericTable(self.path, self.names, self.values[kept], lines), len(same)
 
     def refuse(self, bad: Mask, names: Sequence[str], why: str) -> None:
         """Refuse a table with bad cells.
@@ -87,6 +124,7 @@ def parse(
     first: int,
     delimiter: str | None,
     gaps: bool = False,
+    repeated: bool = False,
 ) -> NumericTable:
     """Read the rows below a header.
 
@@ -97,6 +135,7 @@ def parse(
         first: Line number of `lines[0]`, counted from 1.
         delimiter: What separates the cells; None is any blank.
         gaps: Whether a cell may be NaN.
+        repeated: Whether a name may occur more than once.
 
     Raises:
         FormatError: For duplicate names, no rows, ragged rows, cells that are no number, infinity and (but
@@ -104,7 +143,7 @@ def parse(
     """
     refuse_length(path, len(lines))
     name, times = Counter(names).most_common(1)[0]
-    if times > 1:
+    if times > 1 and not repeated:
         raise FormatError(path, f"column {name[:80]!r} occurs more than once", line=first - 1)
     rows = [(number, line) for number, line in enumerate(lines, first) if line.strip()]
     if not rows:
@@ -117,7 +156,10 @@ def parse(
         raise _culprit(path, names, rows, delimiter, "the rows do not fit the header")
     table = NumericTable(path, tuple(names), values, [number for number, _ in rows])
     bad = np.isinf(values) if gaps else ~np.isfinite(values)
-    table.refuse(bad, table.names, "expected a finite number")
+    if bad.any():
+        row, k = np.argwhere(bad)[0]
+        why = f"{names[k]} is {values[row, k]:g}: expected a finite number"
+        raise FormatError(path, why, line=table.lines[row])
     return table
 
 
