@@ -32,7 +32,12 @@ FLOORS = [
     {"__init__", "__main__"},
 ]
 INNER_FLOORS = {  # of rooms with folders, in the same order; "." are the modules that no other entry names
-    "formats": [{"presets", "read_options", "trial_file", "units"}, {"tables"}, {"c3d", "opensim"}, {"."}],
+    "formats": [
+        {"sign_presets", "read_options", "trial_file", "units"},
+        {"tables"},
+        {"c3d", "opensim"},
+        {"."},
+    ],
     "ik": [{"settings", "targets", "problem", "result"}, {"leg", "least_squares"}, {"."}],
     "report": [{"draw"}, {"document"}, {"sections"}, {"pages"}],
     "viewer": [{"drawing_commands"}, {"meshes"}, {"scenes"}, {"page"}, {"film", "live"}, {"."}],
