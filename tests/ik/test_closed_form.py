@@ -106,7 +106,7 @@ def test_some_poses_need_the_negative_remaining_component(robot, rng):
     assert ik.track(robot, {"left_foot": T[backwards]}).converged.all()
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     order=st.sampled_from(sorted(HIP_ORDERS)),
     sizes=st.tuples(*[st.floats(0.25, 0.60)] * 4),
