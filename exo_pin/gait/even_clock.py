@@ -46,7 +46,7 @@ def even_clock(time: Array) -> Array | None:
     if not last < (_FINE if n < _MANY else 1.0) * step:
         return None
     for trial in (1 / max(round(1 / step), 1), step):
-        even = _nearest_grid(time, trial, k)
+        even = _nearest_grid(time, trial, k, last)
         off = np.abs(even - time).max()
         if off <= _WITHIN * last:
             return even if off > _NOTICEABLE * step else None
@@ -62,12 +62,11 @@ def _last_decimal(time: Array) -> float | None:
     return None
 
 
-def _nearest_grid(time: Array, step: float, k: Array) -> Array:
+def _nearest_grid(time: Array, step: float, k: Array, last: float) -> Array:
     """The grid of that step in the middle of the stamps; at whole multiples of the step where these do."""
     off = time - step * k
     first = (off.max() + off.min()) / 2
     whole = step * round(first / step)
     half = (off.max() - off.min()) / 2
-    last = _last_decimal(time) or 0.0
     start = whole if abs(whole - first) + half <= _WITHIN * last else first
     return np.asarray(start + step * k)
