@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.robot import Robot, load_robot
+
 SEED = 20260101
 
 # Examples are no timed tests: on a busy machine one of them may take its time.
@@ -25,6 +28,28 @@ def own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
 @pytest.fixture
 def rng() -> np.random.Generator:
     return np.random.default_rng(SEED)
+
+
+@pytest.fixture(scope="session")
+def robot() -> Robot:
+    """The exoskeleton on the default body."""
+    return load_robot()
+
+
+@pytest.fixture(scope="session")
+def gait() -> Gait:
+    """The normal walk at free speed."""
+    return normative_gait()
+
+
+@pytest.fixture(scope="session")
+def recording(gait: Gait) -> Gait:
+    """Two and a half cycles that do not repeat, with the events of each."""
+    walk = gait.repeated(3)
+    keep = walk.time <= 2.5 * gait.duration
+    events = [event for event in walk.events if event.time <= walk.time[keep][-1]]
+    assert walk.base is not None
+    return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="repeated")
 
 
 @pytest.fixture(scope="session")

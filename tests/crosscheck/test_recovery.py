@@ -3,20 +3,8 @@
 import pytest
 
 from exo_pin import crosscheck, ik
-from exo_pin.gait import normative_gait
-from exo_pin.robot import load_robot
 
 EVEN = 0.35  # how far a gait's rms error with 3 mm noise may lie from three times that with 1 mm, as a share
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 def test_the_loops_error_falls_to_the_tolerance(robot, gait):

@@ -19,11 +19,6 @@ ROUNDED = 1e-12  # [rad, rad/s] a few operations on numbers of size one
 BEYOND = 1e-3  # a factor this much beyond a limit exceeds it, this much below keeps it
 
 
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
 def _of(demands, joint):
     return next(demand for demand in demands if demand.joint == joint)
 

@@ -23,11 +23,6 @@ LENGTH = 0.05  # of the factor: the stride is measured between heels, the path s
 
 
 @pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
 def walk():
     return normative_gait("free")
 

@@ -5,23 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exo_pin.gait import Event, Gait, leg_cycles, normative_gait, stance_times
+from exo_pin.gait import Event, Gait, leg_cycles, stance_times
 
 FOURIER = 1e-9  # [rad] interpolation of a band-limited curve at its own samples
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
-
-
-@pytest.fixture(scope="module")
-def recording(gait):
-    """Two and a half cycles that do not repeat, with the events of each."""
-    walk = gait.repeated(3)
-    keep = walk.time <= 2.5 * gait.duration
-    events = [event for event in walk.events if event.time <= walk.time[keep][-1]]
-    return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="repeated")
 
 
 def test_legs_of_a_normal_walk_are_its_curves(gait):

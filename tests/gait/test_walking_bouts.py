@@ -30,11 +30,6 @@ FORWARD = 0.6  # [m] stride of the walks below
 
 
 @pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
 def supple():
     """Ankles and hips that let the whole sole stay on the ground in everything below."""
     body = Body.from_stature(1.75)

@@ -7,15 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait
 from exo_pin.ground import aligned
 
 SAME = 1e-9  # resampling a band-limited cycle on its own samples changes rounding only
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 def test_a_slower_cycle_is_laid_over_the_first(gait):

@@ -13,7 +13,6 @@ from exo_pin.gait import SPEEDS, Gait, normative_gait
 from exo_pin.ground import DEEPEST_SINK, lowest_corners, place_walk
 from exo_pin.ground import standing as standing_between
 from exo_pin.retarget import retarget
-from exo_pin.robot import load_robot
 
 TOUCH = 2e-3  # [m]: a standing sole this close to the ground touches it
 SMOOTH = 15.0  # [m/s^2]: the pelvis of fast walkers reaches half of this; a jerk far exceeds it
@@ -21,11 +20,6 @@ STEADY = 0.06  # [m]: how far the pelvis may surge; people's pelvis surges 2-4 c
 
 SWAY = 0.09  # [m]: people's pelvis sways 4 to 7 cm, the more the slower they walk
 SLIDE = 2e-3  # [m]: sideways, of the corner that bears the weight, in one single support
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
 
 
 def standing(shown, side):

@@ -17,11 +17,6 @@ MILLISECOND = 1e-3
 
 
 @pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
 def walk(robot):
     cycle = normative_gait("free", leg_length=0.93).resampled(200)
     q = np.clip(robot.from_gait(cycle), robot.lower, robot.upper)

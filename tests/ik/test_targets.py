@@ -24,11 +24,6 @@ MARKERS = {
 }
 
 
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
 def walk(robot, n=8):
     return np.clip(robot.from_gait(normative_gait("free").resampled(n)), robot.lower, robot.upper)
 

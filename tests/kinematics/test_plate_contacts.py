@@ -25,11 +25,6 @@ STATED = {  # the data's README: events from the plates at 20 N [s]
 }
 
 
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
 def times(found, kind, side):
     return [event.time for event in found if (event.kind, event.side) == (kind, side)]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.anatomy import JOINTS, MOVEMENTS
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait
 from exo_pin.kinematics import (
     curve_outliers,
     deviation_from_parallel,
@@ -15,17 +15,6 @@ from exo_pin.kinematics import (
     spatiotemporal,
     walk_numbers,
 )
-from exo_pin.robot import load_robot
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 @pytest.fixture(scope="module")

@@ -33,25 +33,6 @@ PRINTED = 5e-2  # [deg] tables show one decimal
 
 
 @pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
-
-
-@pytest.fixture(scope="module")
-def recording(gait):
-    """Two and a half cycles that do not repeat, with the events of each."""
-    walk = gait.repeated(3)
-    keep = walk.time <= 2.5 * gait.duration
-    events = [event for event in walk.events if event.time <= walk.time[keep][-1]]
-    return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="repeated")
-
-
-@pytest.fixture(scope="module")
 def document(robot, gait):
     info = report.ReportInfo(title=EVIL, who=EVIL, what="free", when="today", choices={EVIL: EVIL})
     return report.walk(robot, gait, info=info, player=f"<!DOCTYPE html><p title='{EVIL}'>player</p>")

@@ -8,7 +8,7 @@ import pytest
 
 from exo_pin import viewer
 from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait
 from exo_pin.gait.heading import turned
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import load_robot
@@ -18,16 +18,6 @@ from exo_pin.viewer.scenes.world import TRACE_ERROR, TRACE_POINTS
 SINGLE = 2e-7  # float32 keeps seven digits of numbers near 1
 MILLIMETRE = 1e-3
 VERTEX = 5e-6  # [m]: float32 metres, and the mean of a ring of them
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 @pytest.fixture(scope="module")

@@ -13,11 +13,6 @@ from exo_pin.robot import load_robot
 FLOAT32 = 1e-6  # the page gets seven digits
 
 
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
-
-
 def test_a_recording_beside_a_cycle_is_not_bent_to_close(gait):
     half = Gait(np.arange(60) * 0.01, gait.q[:60])
     fitted, fastest = aligned(gait, half), np.abs(half.dq).max()

@@ -13,18 +13,13 @@ from exo_pin import viewer
 from exo_pin.compare import compare, dressed
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
-from exo_pin.robot import load_robot, load_urdf
+from exo_pin.robot import load_urdf
 from exo_pin.viewer.live import messages
 from exo_pin.viewer.live.foot_drag import ROTATION_WEIGHT, TOLERANCE, reach_solver
 
 FEET = ("left_foot", "right_foot")
 EXACT = 1e-6  # [m, rad]: what "reached" promises
 QUICK = 0.1  # [s] of a processor; measured 1 to 10 ms
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return load_robot()
 
 
 @pytest.fixture(scope="module")

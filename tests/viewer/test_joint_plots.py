@@ -9,17 +9,12 @@ import pytest
 from exo_pin import viewer
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.errors import UnknownNameError
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait
 from exo_pin.robot import load_robot
 from exo_pin.viewer.scenes import joint_plots
 from exo_pin.viewer.scenes.compiler import phase_cycles
 
 ORDER = 1e-12  # [rad] through a robot's own coordinates and back
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 def test_left_and_right_of_a_joint_share_a_plot_and_the_sagittal_plane_comes_first():

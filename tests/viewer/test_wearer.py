@@ -5,16 +5,10 @@ import pytest
 
 from exo_pin import viewer
 from exo_pin.anatomy import SIDES, Body
-from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.viewer.scenes import person_figure
 
 CENTIMETRE = 0.01
-
-
-@pytest.fixture(scope="module")
-def gait():
-    return normative_gait()
 
 
 def drawn(scene, path):
