@@ -17,6 +17,8 @@ Base = Literal["fixed", "floating"]
 """Whether the pelvis is held in place or moves with six degrees of freedom."""
 EventKind = Literal["heel_strike", "toe_off"]
 """Initial contact of a foot, or the moment it leaves the ground."""
+PlausibilityWord = Literal["plausible", "doubtful"]
+"""The verdict on a walk as it was read."""
 Sex = Literal["male", "female"]
 Speed = Literal["very_slow", "slow", "free", "fast", "very_fast"]
 """A speed of the normal walk (Schwartz 2008)."""

@@ -17,7 +17,7 @@ from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Gait
+    from exo_pin.gait import Gait, Plausibility
     from exo_pin.robot import Robot
 
 
@@ -90,6 +90,13 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
     from exo_pin.formats import load_gait
 
     return load_gait(files.open(name), **options)
+
+
+def plausibility(args: argparse.Namespace, robot: Robot, walk: Gait) -> Plausibility:
+    """The verdict on a walk as it was read: by its motion, and by the markers of a marker trial."""
+    from exo_pin import kinematics
+
+    return kinematics.plausibility(robot, walk, more=trials.doubts(args))
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:

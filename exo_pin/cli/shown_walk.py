@@ -8,13 +8,13 @@ from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, torque_options
+from exo_pin.cli import options, show, torque_options, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
     from exo_pin.crosscheck import Recovery
-    from exo_pin.gait import Gait
+    from exo_pin.gait import Gait, Plausibility
     from exo_pin.robot import Robot
     from exo_pin.viewer import Scene, SceneOptions
 
@@ -84,9 +84,13 @@ def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     torques = torque_options.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
     gait, note = options.with_events(robot, gait)
+    verdict = options.plausibility(args, robot, gait)
+    walk_output.print_plausibility(verdict)
     name = Path(args.gait).name
     found = _recovered(robot, gait, name) if args.device == "exo12" else _on_device(args, body, gait)
-    chosen = _scene_options(args, body, name + found.title, [gait.source, note, *found.notes])
+    chosen = _scene_options(
+        args, body, name + found.title, [gait.source, note, *_judged(verdict), *found.notes]
+    )
     return viewer.exoskeleton_scene(found.robot, found.gait, chosen, reference=gait, torques=torques)
 
 
@@ -102,7 +106,10 @@ def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     }
     for option in (name for name, given in used.items() if given):
         raise DescriptionError(f"{option} is for the exoskeleton; leave it away with --robot")
-    gait, note = options.with_events(load_robot(body), gait)
+    person = load_robot(body)
+    gait, note = options.with_events(person, gait)
+    verdict = options.plausibility(args, person, gait)
+    walk_output.print_plausibility(verdict)
     walk = retarget.retarget(gait, args.robot, body)
     title = walk.target.title or walk.target.name
     position = 1e3 * walk.errors.largest_position
@@ -112,9 +119,13 @@ def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         f"{position:.2f} mm and {rotation:.1f} deg at most "
         f"({walk.samples_missed} of {len(gait)} samples missed)"
     )
-    return viewer.robot_scene(
-        walk, _scene_options(args, body, f"{Path(args.gait).name} on {title}", [gait.source, note])
-    )
+    notes = [gait.source, note, *_judged(verdict)]
+    return viewer.robot_scene(walk, _scene_options(args, body, f"{Path(args.gait).name} on {title}", notes))
+
+
+def _judged(verdict: Plausibility) -> list[str]:
+    """The verdict on the walk as it was read, as notes of the page."""
+    return [f"The walk is {verdict.word}{':' * bool(verdict.reasons)}", *verdict.reasons]
 
 
 def _scene_options(args: argparse.Namespace, body: Body, title: str, notes: list[str]) -> SceneOptions:

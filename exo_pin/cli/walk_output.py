@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Cycles, Gait
+    from exo_pin.gait import Cycles, Gait, Plausibility
     from exo_pin.kinematics import CurveOutlier, WalkNumbers
 
 _OUTLIERS_PRINTED = 6  # JSON holds all
@@ -58,6 +58,13 @@ def print_left_out(found: WalkNumbers) -> None:
     """Spans between heel strikes that are no strides, and why."""
     for x in found.left_out:
         print(f"left out: {x.side} {x.start:.2f} .. {x.end:.2f} s: {x.why}")
+
+
+def print_plausibility(found: Plausibility) -> None:
+    """The verdict, and each reason against the walk on its own line."""
+    print(found.word + ":" * bool(found.reasons))
+    for reason in found.reasons:
+        print(f"  {reason}")
 
 
 def print_outliers(found: Sequence[CurveOutlier]) -> None:

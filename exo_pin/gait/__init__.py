@@ -5,7 +5,7 @@ from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd, speed_named
-from exo_pin.gait.plausibility import implausibilities
+from exo_pin.gait.plausibility import Plausibility, implausibilities
 from exo_pin.gait.published_ranges import Norm, against_normal, normal
 from exo_pin.gait.spatiotemporal import Number, spatiotemporal
 from exo_pin.gait.stance_times import stance_times
@@ -22,6 +22,7 @@ __all__ = [
     "LegCycle",
     "Norm",
     "Number",
+    "Plausibility",
     "Stride",
     "Torques",
     "against_normal",

@@ -1,12 +1,16 @@
-"""Plausibility of a walk's angles: signs, presets and units that were probably mistaken."""
+"""Plausibility of a walk: one word and the reasons against it; signs, presets and units probably mistaken."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.human import EXTREME_RANGES, HYPEREXTENDED_KNEE
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import PlausibilityWord, Side
 from exo_pin.arrays import Array
 from exo_pin.gait.gait import Gait
 
@@ -18,6 +22,34 @@ _LEAST_MOTION = np.radians(3.0)
 
 _LONGEST_SAMPLE_STEP = 0.2
 """No recording of a walk has its samples further apart than this [s]: 5 Hz, a few per step."""
+
+
+@dataclass(frozen=True)
+class Plausibility:
+    """The verdict on a walk as it was read, the same in every output.
+
+    Attributes:
+        reasons: Each finding that speaks against the walk, with its probable cause; empty where none does.
+    """
+
+    reasons: tuple[str, ...] = ()
+
+    @property
+    def word(self) -> PlausibilityWord:
+        """`"plausible"`, or `"doubtful"` where there is a reason."""
+        return "doubtful" if self.reasons else "plausible"
+
+    def __str__(self) -> str:
+        """The word, and after a colon the reasons."""
+        return ": ".join(filter(None, (self.word, "; ".join(self.reasons))))
+
+    def with_reasons(self, more: Iterable[str]) -> Plausibility:
+        """The verdict with further reasons; one that is known already is not repeated."""
+        return replace(self, reasons=tuple(dict.fromkeys((*self.reasons, *more))))
+
+    def facts(self) -> dict[str, Any]:
+        """For JSON."""
+        return {"word": self.word, "reasons": list(self.reasons)}
 
 
 def implausibilities(gait: Gait) -> tuple[str, ...]:

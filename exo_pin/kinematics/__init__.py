@@ -8,6 +8,7 @@ from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, 
 from exo_pin.kinematics.plate_contacts import plate_events, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
+from exo_pin.kinematics.walk_plausibility import plausibility
 
 __all__ = [
     "CenterOfMass",
@@ -26,6 +27,7 @@ __all__ = [
     "joint_frames",
     "joint_rates",
     "plate_events",
+    "plausibility",
     "poses",
     "spatiotemporal",
     "velocities",

@@ -48,17 +48,19 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
     outliers = curve_outliers(gait)  # before the filter spreads them
+    verdict = options.plausibility(args, robot, gait)
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
     cut = cycles(gait, args.side or side_with_more_strides(gait))
     found = walk_numbers(robot, gait)
     if args.json:
-        more = {"source": gait.source, "outliers": walk_output.outliers_to_json(outliers)}
-        show.as_json(walk_output.numbers_to_json(gait, found) | more)
+        facts = {"outliers": walk_output.outliers_to_json(outliers), "plausibility": verdict.facts()}
+        show.as_json(walk_output.numbers_to_json(gait, found) | {"source": gait.source} | facts)
     else:
         _print(args, cut, gait, found)
         walk_output.print_outliers(outliers)
+        walk_output.print_plausibility(verdict)
     if args.output:
         _write(args.output, cut, gait.source)
         if not args.json:

@@ -12,7 +12,7 @@ from exo_pin.cli import options, show, trials, walk_output
 if TYPE_CHECKING:
     from exo_pin.arrays import Array
     from exo_pin.demand import RangeDemand
-    from exo_pin.gait import Gait
+    from exo_pin.gait import Gait, Plausibility
     from exo_pin.kinematics import CurveOutlier, WalkNumbers
 
 _EXAMPLES = """examples:
@@ -50,7 +50,7 @@ class _Info:
         peak_speeds: Of the joints in the same order [rad/s].
         numbers: Cycles and spatiotemporal numbers.
         outliers: Samples that stand out of their curve.
-        warnings: Reasons to doubt how the file was read.
+        plausibility: The verdict on the walk as it was read.
         markers: How well a marker trial's markers are met, for JSON; None for other files.
     """
 
@@ -60,7 +60,7 @@ class _Info:
     peak_speeds: Array
     numbers: WalkNumbers
     outliers: tuple[CurveOutlier, ...]
-    warnings: tuple[str, ...]
+    plausibility: Plausibility
     markers: dict[str, Any] | None
 
 
@@ -68,7 +68,6 @@ def _found(args: argparse.Namespace) -> _Info:
     import numpy as np
 
     from exo_pin.demand import range_demands
-    from exo_pin.gait import implausibilities
     from exo_pin.kinematics import curve_outliers, walk_numbers
     from exo_pin.robot import load_robot
 
@@ -82,7 +81,7 @@ def _found(args: argparse.Namespace) -> _Info:
         peak_speeds=np.abs(gait.dq).max(axis=0),
         numbers=walk_numbers(robot, gait),
         outliers=curve_outliers(gait),
-        warnings=(*implausibilities(gait), *trials.doubts(args)),
+        plausibility=options.plausibility(args, robot, gait),
         markers=trials.to_json(args),
     )
 
@@ -111,7 +110,7 @@ def _to_json(found: _Info) -> dict[str, Any]:
         "events_note": found.events_note,
         "markers": found.markers,
         "outliers": walk_output.outliers_to_json(found.outliers),
-        "doubts": list(found.warnings),
+        "plausibility": found.plausibility.facts(),
         **walk_output.numbers_to_json(gait, found.numbers),
     }
 
@@ -141,7 +140,7 @@ def _print(name: str, found: _Info) -> None:
 
 
 def _print_numbers(found: _Info) -> None:
-    """Cycles, outliers and warnings."""
+    """Cycles, outliers and the verdict."""
     numbers = found.numbers
     if numbers.missing:
         print(f"cycles: {numbers.missing}")
@@ -151,4 +150,4 @@ def _print_numbers(found: _Info) -> None:
         print(f"cycles: {counts}; {speed:.2f} m/s, {cadence:.0f} steps/min (exo-pin cycles)")
     walk_output.print_left_out(numbers)
     walk_output.print_outliers(found.outliers)
-    print("doubtful: " + "; ".join(found.warnings) if found.warnings else "plausible")
+    walk_output.print_plausibility(found.plausibility)

@@ -71,7 +71,8 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError(f"--filter is {args.filter:g}; a frequency in Hz, or 0 for none, is accepted")
     body, gait = shown_walk.read(args)
     given = torque_options.given(args)
-    gait, note = options.with_events(load_robot(body), gait)
+    person = load_robot(body)
+    gait, note = options.with_events(person, gait)
     robot = load_robot(body, device=args.device, hip_order=args.hip_order)
     name = Path(args.gait).name
     info = report.ReportInfo(
@@ -92,6 +93,7 @@ def run(args: argparse.Namespace) -> int:
             normal=None if args.normal == "none" else args.normal,
             cutoff=args.filter or None,
             torques=given,
+            plausibility=options.plausibility(args, person, gait),
         )
         page = report.html(document)
     write_text(args.output, page)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from exo_pin import crosscheck
+from exo_pin import crosscheck, kinematics
 from exo_pin.anatomy.names import Speed
-from exo_pin.gait import Gait, Torques
+from exo_pin.gait import Gait, Plausibility, Torques
 from exo_pin.gait.heading import heading, turned
 from exo_pin.kinematics import joint_rates
 from exo_pin.report.document.blocks import Document, Paragraph, Player, Section, Tiles
@@ -49,6 +49,7 @@ def walk(
     normal: Speed | None = "free",
     cutoff: float | None = 6.0,
     torques: Torques | None = None,
+    plausibility: Plausibility | None = None,
 ) -> Document:
     """The report of a walk.
 
@@ -62,6 +63,7 @@ def walk(
         cutoff: Low-pass of velocities and accelerations of recordings [Hz]; None: no filter. Periodic walks
             are differentiated by their Fourier series and never filtered.
         torques: Joint torques at the walk's times, if known.
+        plausibility: The verdict on the walk as it was read; default: by its motion on this robot.
 
     Raises:
         DescriptionError: The robot was not made for a body.
@@ -72,7 +74,7 @@ def walk(
     verdict = crosscheck.check(robot, gait)
     rates = joint_rates(robot, gait, cutoff=cutoff)
     sections = [
-        _summary(gait, info, verdict),
+        _summary(gait, info, verdict, plausibility or kinematics.plausibility(robot, gait)),
         fact_tables.body(robot),
         fact_tables.device(robot),
         *([_played(player, info.title, still)] if player else []),
@@ -101,11 +103,12 @@ def _ahead(gait: Gait) -> tuple[Gait, str]:
     return turned(gait, -angle), how
 
 
-def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check) -> Section:
+def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check, read: Plausibility) -> Section:
     track = verdict.recovery.track
     apart = max(verdict.fk.values())
     outside = verdict.joints_outside
     tiles = (
+        ("the walk as it was read", read.word, not read.reasons),
         ("verdict of all checks", "all is well" if verdict.ok else "no: see below", verdict.ok),
         ("joints outside their limits", str(len(outside)), not outside),
         ("frames whose feet were reached", f"{int(track.converged.sum())} of {len(track)}", verdict.ik_ok),
@@ -115,7 +118,8 @@ def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check) -> Section
     )
     words = f"{info.what or 'The walk'}: {gait.source or 'source not stated'}."
     kind = "One cycle that repeats." if gait.periodic else "A recording that does not repeat."
-    return Section("Summary", (Tiles(tiles), Paragraph(f"{words} {kind}")))
+    reasons = [Paragraph(f"Doubtful: {reason}") for reason in read.reasons]
+    return Section("Summary", (Tiles(tiles), *reasons, Paragraph(f"{words} {kind}")))
 
 
 def _played(player: str, title: str, still: bytes) -> Section:

@@ -1,0 +1,34 @@
+"""Plausibility of a walk on a body: its angles, outliers and joint ranges in one verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from exo_pin.gait import Gait, Plausibility, implausibilities
+from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
+from exo_pin.robot import Robot
+
+
+def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plausibility:
+    """Whether a walk was probably read as it was walked; every reason against it.
+
+    A walk is plausible where no sample stands out of its curve, and no joint leaves what a person can do.
+
+    Args:
+        robot: The robot that walks, on the person's body.
+        gait: The walk.
+        more: Reasons found elsewhere: how markers are met, how force plates were read.
+    """
+    found = Plausibility(implausibilities(gait))
+    return found.with_reasons((*_outliers(curve_outliers(gait)), *more))
+
+
+def _outliers(found: Sequence[CurveOutlier]) -> tuple[str, ...]:
+    """How many samples stand out, and the furthest one."""
+    if not found:
+        return ()
+    worst = max(found, key=lambda x: abs(x.off))
+    count = f"{len(found)} sample{'s' * (len(found) != 1)} stand{'s' * (len(found) == 1)} out of the curve"
+    return (
+        f"{count}, {worst.curve} at {worst.time:.3f} s by {worst.off:+.1f} {worst.unit}: gaps, or noise?",
+    )
