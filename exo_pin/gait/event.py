@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -63,6 +63,19 @@ def between(times: Sequence[float], start: float, end: float) -> Sequence[float]
         end: The moment after [s].
     """
     return times[bisect_right(times, start) : bisect_left(times, end)]
+
+
+def flat_times(events: Iterable[Event], side: Side) -> Iterator[tuple[float, float]]:
+    """Start and end [s] of the part of each whole stance in which the foot rests flat (`FOOT_FLAT`).
+
+    Args:
+        events: Sorted by time.
+        side: `"left"` or `"right"`.
+    """
+    for strike, off in pairwise(event for event in events if event.side == side):
+        if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
+            a, b = (strike.time + part * (off.time - strike.time) for part in FOOT_FLAT)
+            yield a, b
 
 
 def stance(time: Array, events: Sequence[Event], side: Side, *, periodic: bool) -> Mask:

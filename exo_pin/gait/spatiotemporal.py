@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.event import FOOT_FLAT, SAME_TIME, Event, between
+from exo_pin.gait.event import SAME_TIME, Event, between, flat_times
 from exo_pin.gait.strides import Stride
 from exo_pin.gait.validation import check_time, frozen
 
@@ -97,6 +97,21 @@ def spatiotemporal(
     return out | _symmetry({name: np.asarray(values) for name, (_, values) in measures.items()})
 
 
+def ground_velocity(
+    time: ArrayLike, heels: ArrayLike, events: Iterable[Event], pelvis: ArrayLike | None = None
+) -> Array:
+    """Velocity `(2,)` of the ground [m/s]: 0 over ground, that of the resting feet on a treadmill.
+
+    Args:
+        time: `(n,)` [s].
+        heels: `(n, 2, 2)` or `(n, 2, 3)` left and right heel in the world, z up [m].
+        events: Heel strikes and toe-offs.
+        pelvis: `(n, 2)` where the pelvis is, if it moves in the world [m].
+    """
+    walk = _Walk(np.asarray(time, dtype=float), np.asarray(heels, dtype=float), events)
+    return _ground(walk, None if pelvis is None else np.asarray(pelvis, dtype=float))
+
+
 class _Walk:
     """Paths of the heels and times of the events, by side."""
 
@@ -129,7 +144,7 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     """
     resting = []
     for side in SIDES:
-        spans = list(_spans(walk, side))
+        spans = list(flat_times(walk.events, side))
         moves = [(walk.at(side, b) - walk.at(side, a)) / (b - a) for a, b in spans]
         resting += [np.median(moves, axis=0)] if moves else []
     velocity = np.mean(resting, axis=0) if resting else np.zeros(2)
@@ -138,15 +153,6 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
         along = (pelvis[-1] - pelvis[0]) / (walk.time[-1] - walk.time[0])
     slower = np.linalg.norm(velocity) < max(_STATIONARY, float(np.linalg.norm(along)))
     return np.zeros(2) if slower else velocity
-
-
-def _spans(walk: _Walk, side: Side) -> Iterator[tuple[float, float]]:
-    """The parts of each stance in which the foot rests flat."""
-    mine = [event for event in walk.events if event.side == side]
-    for strike, off in pairwise(mine):
-        if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
-            a, b = (strike.time + part * (off.time - strike.time) for part in FOOT_FLAT)
-            yield a, b
 
 
 def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) -> dict[str, Measure]:

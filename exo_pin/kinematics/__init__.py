@@ -7,14 +7,17 @@ from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
 from exo_pin.kinematics.plate_contacts import plate_events, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
+from exo_pin.kinematics.stance_slide import LARGE_SLIDE, StanceSlide, largest_slide, stance_slides
 from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
 from exo_pin.kinematics.walk_plausibility import plausibility
 
 __all__ = [
+    "LARGE_SLIDE",
     "CenterOfMass",
     "Contacts",
     "CurveOutlier",
     "JointRates",
+    "StanceSlide",
     "WalkNumbers",
     "accelerations",
     "attitude",
@@ -26,10 +29,12 @@ __all__ = [
     "jacobian",
     "joint_frames",
     "joint_rates",
+    "largest_slide",
     "plate_events",
     "plausibility",
     "poses",
     "spatiotemporal",
+    "stance_slides",
     "velocities",
     "walk_numbers",
     "with_events",
