@@ -16,7 +16,8 @@ class OpenedFiles:
     """Trial files by path; a command has one in its arguments.
 
     Attributes:
-        length_unit: Of the points of C3D files, as the user states it; None: as the file does.
+        length_unit: Of the points of marker trials, as the user states it; None: as the file does. Forces and
+            torques beside a trial keep their own.
     """
 
     def __init__(self) -> None:
@@ -31,7 +32,10 @@ class OpenedFiles:
         path = Path(path)
         if path not in self._files:
             file = open_trial(path, content)
-            self._files[path] = file.with_length_unit(self.length_unit) if self.length_unit else file
+            beside = content in ("forces", "torques") and not file.takes_length_unit
+            self._files[path] = (
+                file.with_length_unit(self.length_unit) if self.length_unit and not beside else file
+            )
         return self._files[path]
 
     def reconstruct(

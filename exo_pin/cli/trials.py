@@ -51,7 +51,8 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--units",
         action=_Units,
         choices=("deg", "rad", "mm", "cm", "m"),
-        help="of angles, or of lengths in a C3D file, where the file does not tell; repeat for both",
+        help="of angles, or of lengths in a marker trial (.c3d, .trc), where the file does not tell "
+        "or is wrong; repeat for both",
     )
     group.add_argument(
         "--model",

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
+from exo_pin.anatomy.names import LengthUnit
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.files import read_lines
@@ -40,6 +41,22 @@ class TrcFile(TrialFile):
     def needs_inverse_kinematics(self) -> bool:
         """Always: it holds markers only."""
         return True
+
+    @property
+    def takes_length_unit(self) -> bool:
+        """Always: files exist whose header has the unit of another program."""
+        return True
+
+    def with_length_unit(self, unit: LengthUnit) -> TrcFile:
+        """The same content, its lengths in this unit whatever the header says."""
+        trial, stated = self.trial, METRES_PER[self.trial.unit]
+        if METRES_PER[unit] == stated:
+            return self
+        remark = f"lengths are read in {unit}, as the units are given; the header says {trial.unit}"
+        scaled = trial.position * (METRES_PER[unit] / stated)
+        return replace(
+            self, trial=replace(trial, position=scaled, unit=unit, remarks=(*trial.remarks, remark))
+        )
 
     def gait(self, options: ReadOptions) -> Gait:
         """Raises `FormatError`: there are no joint angles."""

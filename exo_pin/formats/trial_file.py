@@ -31,13 +31,19 @@ class TrialFile:
         """Whether the file holds markers and no joint angles: `exo_pin.markers.load_walk` makes its walk."""
         return False
 
+    @property
+    def takes_length_unit(self) -> bool:
+        """Whether the user may state the unit of its lengths; formats in metres leave no choice."""
+        return False
+
     def with_length_unit(self, unit: LengthUnit) -> TrialFile:
         """The same content, its lengths in a unit that the user states.
 
         Raises:
             FormatError: The format leaves no choice.
         """
-        raise FormatError(self.path, f"a unit of length ({unit}) is for C3D files; this file tells its own")
+        why = f"a unit of length ({unit}) is for marker trials (.c3d, .trc); this file is in metres"
+        raise FormatError(self.path, why)
 
     def gait(self, options: ReadOptions) -> Gait:
         """The walk by its joint angles.

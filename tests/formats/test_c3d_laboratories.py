@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.cli import main
+from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import FormatError
 from exo_pin.formats import is_markers, load_forces, load_gait, load_markers, open_trial, save_gait
 from exo_pin.formats.c3d import header
@@ -67,7 +68,7 @@ def test_a_stated_unit_goes_before_the_files_and_that_is_said(walk, edited):
     assert "POINT:UNITS is another unit" in stated.remarks[0]
 
 
-def test_the_command_line_takes_a_unit_of_length_for_c3d_files_only(edited, tmp_path, capsys):
+def test_the_command_line_takes_a_unit_of_length_for_marker_trials_only(edited, tmp_path, capsys):
     path = edited(POINT__UNITS=[""])
     assert main(["info", str(path), "--units", "mm"]) == 0
     assert "pelvis moves" in capsys.readouterr().out
@@ -76,8 +77,18 @@ def test_the_command_line_takes_a_unit_of_length_for_c3d_files_only(edited, tmp_
     table = tmp_path / "walk.csv"
     save_gait(load_gait(path), table)
     assert main(["info", str(table), "--units", "mm"]) == 2
-    assert "is for C3D files" in capsys.readouterr().err
+    assert "is for marker trials" in capsys.readouterr().err
     assert main(["info", "free", "--units", "mm"]) == 2
+
+
+def test_forces_beside_a_trial_keep_their_own_unit_of_length(shared):
+    """`--units mm` is the trial's; a .mot is in metres by definition."""
+    forces = shared / "opensim_subject01_walk/subject01_walk1_grf.mot"
+    files = OpenedFiles()
+    files.length_unit = "mm"
+    assert load_forces(files.open(forces, "forces"))[0].point.max() == load_forces(forces)[0].point.max()
+    with pytest.raises(FormatError, match="in metres"):
+        files.open(shared / "opensim_subject01_walk/subject01_walk1_ik.mot")
 
 
 def test_angles_without_a_unit_are_judged_by_their_size(walk, edited):

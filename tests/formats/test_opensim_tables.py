@@ -231,6 +231,34 @@ def test_a_moco_solution_is_read_beside_speeds_forces_and_controls(path, walk):
         load_gait(write(path, one_knee, ("inDegrees=no",)))
 
 
+def test_a_header_that_says_degrees_above_radians_is_named(path, walk):
+    radians = walk | {name: np.radians(walk[name]) for name in NAMES}
+    write(path, radians)
+    with pytest.raises(
+        FormatError, match=r"inDegrees=yes \(degrees\), but knee_angle_. reaches 1\..*: radians\?"
+    ):
+        load_gait(path)
+    np.testing.assert_allclose(load_gait(path, units="rad").q, load_gait(write(path, walk)).q, atol=EXACT)
+    told = load_gait(write(path, radians), units="deg", preset="opensim-rajagopal")
+    assert "radians?" in " ".join(told.remarks)
+
+
+def test_someone_who_stands_still_has_degrees_as_the_header_says(path, walk):
+    still = walk | {name: np.full(40, 0.1) for name in NAMES}
+    gait = load_gait(write(path, still), preset="opensim-rajagopal")
+    np.testing.assert_allclose(gait.q, np.radians(0.1), atol=EXACT)
+
+
+def test_states_of_opensim_3_are_read_beside_speeds_and_muscles(path, walk):
+    """`hip_flexion_r`, its speed `hip_flexion_r_u` and a muscle's state; radians."""
+    expected = load_gait(write(path, walk))
+    radians = walk | {name: np.radians(walk[name]) for name in NAMES}
+    radians |= {name: np.radians(walk[name]) for name in PELVIS[:3]}
+    states = radians | {f"{name}_u": np.full(40, 7.0) for name in NAMES}
+    states |= {"soleus_r.activation": np.full(40, 0.5), "soleus_r.fiber_length": np.full(40, 0.05)}
+    same(load_gait(write(path, states, header=("inDegrees=no",))), expected)
+
+
 @pytest.mark.parametrize("header", [("DataType=Quaternion",), ()])
 def test_orientations_of_sensors_need_inverse_kinematics_first(path, header):
     rows = [f"{k / 100}\t1.0,0.0,0.0,0.0\t0.9,0.1,0.2,0.3" for k in range(5)]

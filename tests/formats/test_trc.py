@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
-from exo_pin.formats import Markers, load_gait, load_markers
+from exo_pin.formats import Markers, load_gait, load_markers, open_trial
 from exo_pin.gait.trial import UP_AXES, to_z_up
 
 NAMES = ["Anna:LASI", "RASI"]
@@ -44,6 +44,14 @@ def test_positions_are_metres_and_prefixes_are_dropped(path, unit, scale):
     np.testing.assert_allclose(trial.of("RASI")[1], scale * np.array([13, 14, 15]), atol=EXACT)
     np.testing.assert_allclose(trial.time, np.arange(3) / 60)
     assert trial.up == ""
+
+
+def test_the_users_unit_goes_before_the_headers_and_that_is_said(path):
+    path.write_text(trc(unit="mm"))
+    stated = open_trial(path).with_length_unit("m").markers()
+    np.testing.assert_allclose(stated.position, 1000 * load_markers(path).position, atol=EXACT)
+    assert "the header says mm" in stated.remarks[0]
+    assert open_trial(path).with_length_unit("mm").markers().remarks == ()
 
 
 def test_empty_cells_are_markers_that_were_not_seen(path):

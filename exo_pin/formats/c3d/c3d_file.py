@@ -47,6 +47,11 @@ class C3dFile(TrialFile):
         """Whether it has markers and not all of Plug-in Gait's leg angles."""
         return not has_model_angles(self._trial)
 
+    @property
+    def takes_length_unit(self) -> bool:
+        """Always: POINT:UNITS is often empty or cut."""
+        return True
+
     def with_length_unit(self, unit: LengthUnit) -> C3dFile:
         """The same content, its points in this unit."""
         return replace(self, length_unit=unit)

@@ -15,12 +15,16 @@ _HALF_TURN = np.pi
 _TURN = 2 * np.pi
 """No joint of a leg turns that far [rad]; a walk in degrees always does."""
 
+_MOVES = 0.2
+"""A walk turns its legs by more [rad]; below, a wrong unit can not be seen."""
+
 
 def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None) -> tuple[bool, list[str]]:
     """Whether angles are in degrees, and what of it must be said.
 
     The user's word wins over the header; numbers that no leg reaches in radians win over a header that
-    states radians, or nothing.
+    states radians, or nothing. A header that states degrees above a leg that turns by no more than half a
+    turn in radians would is refused: no walk is so small in degrees.
 
     Args:
         table: With plain names.
@@ -40,8 +44,14 @@ def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None)
         if not degrees and largest > _HALF_TURN:
             raise FormatError(table.path, f"units are given as rad, but {reached}: degrees?")
         contradicts = stated in ("yes", "no") and degrees != (stated == "yes")
-        return degrees, [f"{header}; angles are read as {chosen}, as the units are given"] * contradicts
+        said = [f"{header}; angles are read as {chosen}, as the units are given"] * contradicts
+        few = degrees and _MOVES < largest < _HALF_TURN
+        return degrees, said + [
+            f"angles are read as deg, as the units are given, but {reached}: radians?"
+        ] * few
     if stated == "yes":
+        if _MOVES < largest < _HALF_TURN:
+            raise FormatError(table.path, f"{header} (degrees), but {reached}: radians? Give the units")
         return True, []
     if largest > _TURN:
         return True, [f"{header}, but {reached}, which no leg does in radians: read as degrees"]
