@@ -13,6 +13,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import SAME_TIME, Event
+from exo_pin.gait.foot_velocity import at_largest_fall
 from exo_pin.gait.stride_checks import CandidateStride, Feet, candidate_strides, consistent, strike_in_the_air
 from exo_pin.gait.zeni_method import ZENI, candidates, check_apart, check_turns
 
@@ -20,10 +21,11 @@ _MARGIN = 1.5
 """Events of an incomplete stride belong to the walk if they lie within this many strides of its ends."""
 
 
-def walking_events(feet: Feet, *, periodic: bool = False) -> tuple[Event, ...]:
+def walking_events(feet: Feet, *, periodic: bool = False, heights: bool = True) -> tuple[Event, ...]:
     """Heel strikes and toe-offs of the parts of a motion that are a walk, forward or backward.
 
-    The extremes of the feet's motion (`exo_pin.gait.zeni`) are checked stride by stride. In a walk left and
+    The extremes of the feet's motion (`exo_pin.gait.zeni`) are checked stride by stride, then heel strikes
+    are moved to where the foot falls fastest (`exo_pin.gait.foot_velocity`). In a walk left and
     right take turns; a foot strikes near the ground, is lower in stance than in swing, and advances over the
     ground. Other motion (squats, standing up, marching or stepping on the spot) gives no event. In a walk
     backwards the toe lands first and the heel leaves last: there `heel_strike` is the first and `toe_off` the
@@ -32,12 +34,14 @@ def walking_events(feet: Feet, *, periodic: bool = False) -> tuple[Event, ...]:
     Args:
         feet: The motion.
         periodic: The samples are one or more cycles [0, T) of a walk that repeats.
+        heights: The pelvis's vertical motion was recorded, so that heights over the ground are known: then
+            heel strikes of a walk forward are refined by the foot's velocity.
 
     Raises:
         GaitError: Nothing in it is a walk; the message gives the most frequent objection.
     """
     if periodic:
-        return _repeated(feet)
+        return _repeated(feet, heights)
     found = []
     for backwards in (False, True):
         try:
@@ -48,16 +52,19 @@ def walking_events(feet: Feet, *, periodic: bool = False) -> tuple[Event, ...]:
     best = backward if backward[1] > forward[1] else forward
     if not best[0]:
         raise GaitError(best[2])
-    return best[0]
+    if not heights or best is backward:
+        return best[0]
+    centre = (feet.heel[..., 2] + feet.toe[..., 2]) / 2
+    return tuple(at_largest_fall(feet.time, centre, best[0]))
 
 
-def _repeated(feet: Feet) -> tuple[Event, ...]:
+def _repeated(feet: Feet, heights: bool) -> tuple[Event, ...]:
     """Events of a walk that repeats: the middle one of three rounds."""
     n = len(feet.time)
     period = feet.time[-1] * n / (n - 1)
     time = period / n * np.arange(3 * n)
     thrice = Feet(time, *(np.concatenate([x] * 3) for x in feet[1:]))
-    middle = [e for e in walking_events(thrice) if period <= e.time + SAME_TIME < 2 * period]
+    middle = [e for e in walking_events(thrice, heights=heights) if period <= e.time + SAME_TIME < 2 * period]
     events = [dataclasses.replace(e, time=max(e.time - period, 0.0)) for e in middle]
     check_turns(events, periodic=True)
     return tuple(events)

@@ -13,6 +13,7 @@ from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
+from exo_pin.gait.foot_velocity import vertex
 from exo_pin.gait.validation import check_time, frozen
 
 ZENI = "Zeni 2008"
@@ -115,14 +116,14 @@ def _maxima(time: Array, y: Array, side: Side, periodic: bool, smallest: float) 
     height = _PROMINENCE * excursion
     if not periodic:
         peaks = _prominent(y, height, _PROMINENCE_AT_ENDS * excursion)
-        return [_vertex(time, y, i) for i in peaks]
+        return [vertex(time, y, i) for i in peaks]
     n, start = len(y), int(y.argmin())
     step = time[-1] / (n - 1)
     cycle = np.roll(y, -start)
     peaks = _prominent(np.append(cycle, cycle[0]), height, height)
     around = np.concatenate([cycle[-1:], cycle, cycle[:1]])
     grid = step * np.arange(-1, n + 1)
-    return [(_vertex(grid, around, i + 1) + start * step) % (n * step) for i in peaks]
+    return [(vertex(grid, around, i + 1) + start * step) % (n * step) for i in peaks]
 
 
 def _excursion(time: Array, y: Array, smallest: float) -> float:
@@ -157,18 +158,6 @@ def _prominent(y: Array, height: float, border: float) -> list[int]:
     if rising and y[top] - y[-1] >= border:
         peaks.append(top)
     return peaks
-
-
-def _vertex(time: Array, y: Array, i: int) -> float:
-    """Time of the parabola's vertex through the samples around a maximum."""
-    if not 0 < i < len(y) - 1:
-        return float(time[i])
-    before, after = time[i - 1] - time[i], time[i + 1] - time[i]
-    left, right = (y[i - 1] - y[i]) / before, (y[i + 1] - y[i]) / after
-    bend = (right - left) / (after - before)
-    if bend >= 0:  # a plateau
-        return float(time[i])
-    return float(time[i] + np.clip((before - left / bend) / 2, before / 2, after / 2))
 
 
 def check_apart(forward: Array) -> None:

@@ -23,6 +23,9 @@ _TOUCH_HEIGHT = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
 
+_HELD = 1e-3
+"""A pelvis that moves up and down by less than this [m] was held: that of a walker does by 20 to 50 mm."""
+
 _LARGE_TURN = np.pi / 2
 """A larger rotation of the pelvis [rad] is named where a motion is refused as no walk."""
 
@@ -70,7 +73,7 @@ def contacts(
 
 
 def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
-    """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008).
+    """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008, strikes after O'Connor 2007).
 
     Heel and ball of each foot are measured forward of the pelvis, along its horizontal heading: that serves
     on the treadmill and over ground, in any direction of the walk. Parts that are no walk give no events;
@@ -90,13 +93,18 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
     feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
     try:
-        found = walking_events(feet, periodic=gait.periodic)
+        found = walking_events(feet, periodic=gait.periodic, heights=_moves_up_and_down(gait))
     except GaitError as error:
         turn = abs(float(turns_of(gait, gait.time[[0, -1]])[0]))
         hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > _LARGE_TURN else ""
         raise GaitError(f"{error}{hint}") from error
     _check_strides(dataclasses.replace(gait, events=found))
     return found
+
+
+def _moves_up_and_down(gait: Gait) -> bool:
+    """Whether the pelvis's vertical motion was recorded: one that is held at a height says nothing."""
+    return gait.base is not None and float(np.ptp(gait.base[:, 2, 3])) > _HELD
 
 
 def with_events(robot: Robot, gait: Gait) -> Gait:

@@ -14,7 +14,7 @@ from exo_pin.gait import Gait, force_plates, normative_gait
 from exo_pin.kinematics import events, plate_events, poses, spatiotemporal, with_plates
 from exo_pin.robot import load_robot
 
-FRAMES = 2 / 60  # [s] two frames of the recording: what the issue allows Zeni's method
+FRAMES = 0.033  # [s] two frames of 60 Hz: what kinematics may differ from force plates
 PLATE = 0.003  # [s] two samples of the plate at 600 Hz
 SUBJECT = "opensim_subject01_walk/subject01_walk1"
 STATED = {  # the data's README: events from the plates at 20 N [s]
@@ -128,6 +128,31 @@ def test_events_of_the_recording_agree_with_the_force_plates(shared):
         for t in ours:
             assert min(abs(t - x) for x in times(kinematic, *key)) <= FRAMES, key
     assert len(measured) == 8  # with the left strike at 2.460 s, whose contact the recording's end cuts off
+
+
+def recorded(shared, name):
+    """A walk without events, whose legs they are, and the force plates."""
+    if name == "subject01":
+        file = shared / f"{SUBJECT}_ik_full_opensim46.mot"
+        return Body.from_stature(1.78), load_gait(file), load_forces(shared / f"{SUBJECT}_grf.mot")
+    if name == "HC036A":
+        file = shared / "c3d_pig_walk_HC036A/HC036A10_walk.c3d"
+        gait = dataclasses.replace(load_gait(file), events=())
+        return Body.from_stature(1.34), gait, load_forces(file)
+    folder = shared.parent / "trials/lai_arnold_walk"
+    gait = load_gait(folder / "walking1_ik.mot", model=folder / "scaled.osim")
+    return Body.from_stature(1.75), gait, load_forces(folder / "walking1_forces.mot")
+
+
+@pytest.mark.parametrize(("name", "contacts"), [("subject01", 8), ("HC036A", 4), ("Lai-Arnold", 4)])
+def test_events_of_kinematics_lie_within_two_frames_of_the_plates(shared, name, contacts):
+    body, gait, plates = recorded(shared, name)
+    robot = load_robot(body)
+    known, measured = events(robot, gait), plate_events(robot, gait, plates)
+    assert len(measured) == contacts
+    for event in measured:
+        near = min(abs(event.time - t) for t in times(known, event.kind, event.side))
+        assert near <= FRAMES, (name, event)
 
 
 def test_events_of_the_childs_plates_agree_with_those_of_the_file(shared):
