@@ -53,7 +53,7 @@ ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "yourdfpy": {"crosscheck"},
     "joblib": {"study"},
 }
-HEAVY = {"meshcat", "yourdfpy", "matplotlib", "scipy", "ezc3d", "tornado", "PIL", "joblib"}
+HEAVY = {"meshcat", "yourdfpy", "matplotlib", "scipy", "ezc3d", "c3d", "tornado", "PIL", "joblib"}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 

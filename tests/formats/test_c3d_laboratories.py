@@ -135,7 +135,7 @@ def test_events_of_the_header_are_read(walk, tmp_path):
     data[304:312] = np.array([0.25, 0.5], "<f4").tobytes()
     data[396:404] = b"RHS LTO "
     path.write_bytes(data)
-    assert header.events(bytes(data), 84)[1] == ("RHS", "LTO")
+    assert header.check(path, bytes(data)).header_events == 2
     back = load_gait(path)
     assert [(e.time, e.side, e.kind) for e in back.events] == [
         (0.25, "right", "heel_strike"),

@@ -12,7 +12,7 @@ import pytest
 from exo_pin.anatomy import JOINTS
 from exo_pin.errors import FormatError
 from exo_pin.formats import load_gait, load_markers, save_gait
-from exo_pin.formats.c3d import ezc3d_reader, header
+from exo_pin.formats.c3d import header, reader
 from exo_pin.formats.c3d.plug_in_gait import model_angles
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.gait.trial import to_z_up
@@ -103,10 +103,9 @@ def damaged(path, tmp_path, change):
         (lambda d: d[:0], "not a C3D file"),
         (lambda d: b"\x00" * len(d), "not a C3D file"),
         (lambda d: d.__setitem__(0, 200), "outside the file"),
-        (lambda d: d.__setitem__(515, 85), "0 Hz"),  # as DEC numbers these are others
+        (lambda d: d.__setitem__(515, 85), " Hz; expected a recording"),  # as DEC numbers these are others
         (lambda d: d.__setitem__(515, 7), "processor 7"),
         (lambda d: d.__setitem__(slice(2, 4), b"\xff\x7f"), "bytes, the file has|points in one place"),
-        (lambda d: d.__setitem__(slice(20, 24), b"\0\0\0\0"), "0 Hz"),
         (lambda d: d.__setitem__(slice(516, 518), b"\x7f\x01"), "damaged|points or frames|bytes"),
     ],
 )
@@ -117,10 +116,15 @@ def test_damaged_files_are_refused_in_one_line(written, tmp_path, change, match)
     assert "\n" not in str(caught.value)
 
 
+def test_a_rate_of_0_in_the_header_is_that_of_the_parameters(written, tmp_path):
+    path = damaged(written[1], tmp_path, lambda d: d.__setitem__(slice(20, 24), b"\0\0\0\0"))
+    np.testing.assert_allclose(load_gait(path).time, load_gait(written[1]).time, atol=1e-9)
+
+
 def test_every_truncation_is_noticed_by_the_header_check(written, tmp_path):
     data = written[1].read_bytes()
     layout = header.check(written[1], data)
-    assert (layout.frames, layout.first, layout.rate) == (100, 51, pytest.approx(100))
+    assert (layout.frames, layout.first) == (100, 51)
     used = len(data) - 512  # the last block may be padding
     for size in range(0, used, 997):
         with pytest.raises(FormatError):
@@ -131,17 +135,16 @@ def test_every_truncation_is_noticed_by_the_header_check(written, tmp_path):
     ("code", "match"),
     [
         ("import os; os.kill(os.getpid(), 11)", "crash the reader"),
-        ("import time; time.sleep(60)", "takes more than 1 s"),
+        ("import time; time.sleep(60)", "takes more than 2 s"),
         ("raise SystemExit('std::out_of_range')", "do not fit the C3D format"),
         ("x = bytearray(1 << 42)", "too much memory"),
-        ("import no_such_package", "ezc3d, which is not installed"),
     ],
 )
 def test_a_crash_a_hang_or_a_glutton_stays_in_the_child(written, tmp_path, monkeypatch, code, match):
     fake = tmp_path / "child_process.py"
     fake.write_text(code)
-    monkeypatch.setattr(ezc3d_reader, "TIME_LIMIT", 0.5)
-    monkeypatch.setattr(ezc3d_reader, "CHILD_SCRIPT", fake)
+    monkeypatch.setattr(reader, "TIME_LIMIT", 0.5)
+    monkeypatch.setattr(reader, "CHILD_SCRIPT", fake)
     start = time.perf_counter()
     with pytest.raises(FormatError, match=match) as caught:
         load_gait(written[1])
@@ -150,10 +153,11 @@ def test_a_crash_a_hang_or_a_glutton_stays_in_the_child(written, tmp_path, monke
     assert time.perf_counter() - start < 20  # slow machines; the limit is 1 s
 
 
-def test_ezc3d_is_not_loaded_into_this_process_by_reading(written):
-    sys.modules.pop("ezc3d", None)
+def test_no_reader_is_loaded_into_this_process_by_reading(written):
+    for package in reader.READERS:
+        sys.modules.pop(package, None)
     load_gait(written[1])
-    assert "ezc3d" not in sys.modules
+    assert not set(reader.READERS) & set(sys.modules)
 
 
 def rotations(trial, name):

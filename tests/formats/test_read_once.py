@@ -50,7 +50,7 @@ def count(monkeypatch):
         return run(*words, **options)
 
     monkeypatch.setattr(files, "read_bytes", counted)
-    monkeypatch.setattr("exo_pin.formats.c3d.ezc3d_reader.read_bytes", counted)
+    monkeypatch.setattr("exo_pin.formats.c3d.reader.read_bytes", counted)
     monkeypatch.setattr(subprocess, "run", started)
     return reads
 

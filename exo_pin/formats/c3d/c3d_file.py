@@ -14,10 +14,10 @@ from exo_pin.anatomy.names import AngleUnit, LengthUnit, SignPreset, Vertical
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats.c3d.content import C3dContent
-from exo_pin.formats.c3d.ezc3d_reader import read_content
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.plates import FoundPlates, force_plates
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, joint_moments, model_angles
+from exo_pin.formats.c3d.reader import read_content
 from exo_pin.formats.c3d.recorded import check_recorded
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
@@ -112,7 +112,14 @@ class C3dFile(TrialFile):
                 events=found.events,
                 plates=plates.plates,
                 source=self.path.name,
-                remarks=(*self._length_remarks(), *said, *header, *found.remarks, *plates.remarks),
+                remarks=(
+                    *content.remarks,
+                    *self._length_remarks(),
+                    *said,
+                    *header,
+                    *found.remarks,
+                    *plates.remarks,
+                ),
             )
         except GaitError as error:
             raise FormatError(self.path, str(error)) from error

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.arrays import Array
+from exo_pin.formats.c3d.parameters import Parameters
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +62,9 @@ class C3dContent:
         events: Events.
         analog_rate: Samples of the force plates per second.
         plates: Force plates.
-        mass: Of the person [kg], or None where the file does not state it.
+        parameters: All parameters of the file, e.g. the person's measures in PROCESSING.
         analysis: The file's own results: name -> value and unit, e.g. `Walking Speed`.
+        remarks: What reading left out, a sentence each.
     """
 
     time: Array
@@ -76,8 +78,15 @@ class C3dContent:
     events: C3dEvents
     analog_rate: float
     plates: tuple[C3dPlate, ...]
-    mass: float | None
+    parameters: Parameters
     analysis: Mapping[str, tuple[float, str]]
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def mass(self) -> float | None:
+        """Of the person [kg], or None where the file does not state it."""
+        mass = self.parameters.number("PROCESSING:BODYMASS")
+        return mass if mass is not None and mass > 0 else None
 
     def output(self, name: str) -> Array:
         """`(n, 3)` of one model output, in its own unit; NaN where all three numbers are 0."""

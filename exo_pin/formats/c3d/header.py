@@ -7,10 +7,16 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
-from exo_pin.formats.c3d.byte_order import PROCESSORS, floats, integers
+
+INTEL, DEC, MIPS = 84, 85, 86
+PROCESSORS = {INTEL: "<u2", DEC: "<u2", MIPS: ">u2"}
+"""Processor that wrote the numbers -> its whole numbers."""
+
+_SIGN_BYTES = {INTEL: 15, DEC: 13, MIPS: 12}
+"""Processor -> the byte of the header with the sign of the scale."""
 
 _BLOCK = 512
 _KEY = 0x50
@@ -28,23 +34,15 @@ class Layout(NamedTuple):
         points: Points per frame.
         frames: Frames of the file.
         first: Number of the first frame, counted from 1.
-        rate: Frames per second.
-        processor: Which wrote the numbers, one of `byte_order.PROCESSORS`.
-        parameters: Where the section of parameters begins [byte].
-        begin: Where the frames begin [byte].
-        end: Where they end.
-        real: Whether they are 32-bit numbers (or 16-bit whole ones).
+        processor: Which wrote the numbers, one of `PROCESSORS`.
+        header_events: Events that stand in the header.
     """
 
     points: int
     frames: int
     first: int
-    rate: float
     processor: int
-    parameters: int
-    begin: int
-    end: int
-    real: bool
+    header_events: int
 
 
 class Record(NamedTuple):
@@ -83,36 +81,22 @@ def check(path: Path, data: bytes) -> Layout:
         raise FormatError(
             path, f"written by processor {processor}; expected 84 (Intel), 85 (DEC) or 86 (MIPS)"
         )
-    words = integers(data[:20], processor)
-    scale, rate = (float(floats(data[at : at + 4], processor)[0]) for at in (12, 20))
+    words = _integers(data[:20], processor)
     points, analog, first, last = (int(words[k]) for k in (1, 2, 3, 4))
     begin = (int(words[8]) - 1) * _BLOCK
     numbers = _numbers(path, data, start, begin, processor)
     frames = _frames(numbers, first, last)
-    end = begin + frames * (4 * points + analog) * (4 if scale < 0 else 2)
+    real = data[_SIGN_BYTES[processor]] & 0x80 != 0  # a negative scale stands for 32-bit numbers
+    end = begin + frames * (4 * points + analog) * (4 if real else 2)
     if begin <= start or end > len(data):
         raise FormatError(path, f"says it has {end} bytes, the file has {len(data)}; cut short?")
     if numbers.get("POINT:USED", points) != points:
         raise FormatError(path, f"says {points} points in one place and {numbers['POINT:USED']} in another")
-    if not (np.isfinite(rate) and 0 < rate <= 1e5) or frames < 1:
-        raise FormatError(path, f"has {frames} frames at {rate:g} Hz; expected a recording")
-    first = numbers.get("START", first)
-    return Layout(points, frames, first, rate, processor, start, begin, end, scale < 0)
-
-
-def events(data: bytes, processor: int) -> tuple[Array, tuple[str, ...]]:
-    """Times [s] and labels of the events in the header, where files of the 1990s have them; at most 18.
-
-    Args:
-        data: Of the file.
-        processor: Which wrote the numbers.
-    """
-    key, count = integers(data[298:302], processor).tolist()
-    if key != _FOUR_LETTERS or count > _MOST_HEADER_EVENTS:
-        return np.zeros((2, 0)), ()
-    times = floats(data[304 : 304 + 4 * count], processor).astype(float)
-    labels = [data[396 + 4 * k : 400 + 4 * k].decode("latin-1") for k in range(count)]
-    return np.array([np.zeros(count), times]), tuple(label.strip(" \0") for label in labels)
+    if frames < 1:
+        raise FormatError(path, f"has {frames} frames; expected a recording")
+    key, count = _integers(data[298:302], processor).tolist()
+    known = key == _FOUR_LETTERS and count <= _MOST_HEADER_EVENTS
+    return Layout(points, frames, numbers.get("START", first), processor, count if known else 0)
 
 
 def _frames(numbers: dict[str, int], first: int, last: int) -> int:
@@ -131,28 +115,13 @@ def _numbers(path: Path, data: bytes, start: int, begin: int, processor: int) ->
             groups[record.group] = record.name
         elif record.kind == 2 and 1 <= record.size <= 2:
             raw = data[record.at : record.at + 2 * record.size]
-            found[record.group, record.name] = integers(raw, processor).tolist()
+            found[record.group, record.name] = _integers(raw, processor).tolist()
     numbers = {f"{groups.get(g, '?')}:{name}": values for (g, name), values in found.items()}
     out = {key: values[0] for key, values in numbers.items() if key in ("POINT:USED", "POINT:FRAMES")}
     for key, name in (("START", "TRIAL:ACTUAL_START_FIELD"), ("END", "TRIAL:ACTUAL_END_FIELD")):
         if len(numbers.get(name, [])) == 2:
             out[key] = numbers[name][0] + 65536 * numbers[name][1]
     return out
-
-
-def records(path: Path, data: bytes, layout: Layout) -> Iterator[Record]:
-    """The groups and parameters of a file.
-
-    Args:
-        path: The file, for messages.
-        data: Its content.
-        layout: Of `check`.
-
-    Raises:
-        FormatError: A record leaves the file.
-    """
-    section = _section(data, layout.parameters, layout.begin)
-    return _records(path, section, layout.parameters + 4, layout.processor)
 
 
 def _section(data: bytes, start: int, begin: int) -> bytes:
@@ -177,7 +146,7 @@ def _records(path: Path, section: bytes, at: int, processor: int) -> Iterator[Re
             yield Record(-group, name, 0, 0, next_at, next_at)
         else:
             yield _parameter(path, section, group, name, next_at)
-        step = int(integers(section[next_at : next_at + 2], processor)[0])
+        step = int(_integers(section[next_at : next_at + 2], processor)[0])
         if not step:
             return
         at = next_at + step
@@ -195,3 +164,8 @@ def _parameter(path: Path, section: bytes, group: int, name: str, next_at: int) 
     if data_at + count * abs(kind) > len(section):
         raise FormatError(path, f"parameter {name[:40]!r} leaves the file; damaged or cut short")
     return Record(group, name, kind, count, data_at, next_at)
+
+
+def _integers(raw: bytes, processor: int) -> NDArray[np.uint16]:
+    """Unsigned integers of 16 bits."""
+    return np.frombuffer(raw, PROCESSORS[processor]).astype(np.uint16)

@@ -32,9 +32,12 @@ def write_gait(gait: Gait, path: Path) -> None:
     Raises:
         FormatError: The samples are uneven or do not fall on frames, or the file cannot be written.
     """
-    import ezc3d  # 0.1 s, needed here only
-
     rate, first = _grid(gait, path)
+    try:
+        import ezc3d  # 0.1 s, needed here only
+    except ImportError:
+        why = "cannot be written: C3D files are written by the Python package ezc3d, which is not installed"
+        raise FormatError(path, why) from None
     file = ezc3d.c3d()
     points = _angles(gait) | _pelvis(gait)
     file["parameters"]["POINT"]["RATE"]["value"] = [rate]
