@@ -14,11 +14,9 @@ import pinocchio as pin
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
-from exo_pin.ik.least_squares.driver import minimise
-from exo_pin.ik.least_squares.single_sample import SampleKernel
+from exo_pin.ik.least_squares.nearest_posture import NearestPosture, bare_legs
 from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
-from exo_pin.ik.settings import Dls
-from exo_pin.ik.targets import Goal, pose_array
+from exo_pin.ik.targets import is_pose, pose_array
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 
@@ -30,13 +28,15 @@ class Online:
 
     `q = online.step(T_left, T_right)` answers a pair of foot poses by the closed form (by a few damped steps
     from the last answer on legs that have none), checks the answer with Pinocchio's forward kinematics, and
-    never leaves the joint limits or, if `dt` is given, the joints' speed limits. A target that cannot be met
-    changes nothing: the last good answer is returned and `reached` is False.
+    never leaves the joint limits or, if `dt` is given, the joints' speed limits. Each leg is on its own: one
+    that cannot meet its target follows the posture nearest to it, from its last answer; the other goes on.
+    A target that is no pose (NaN, no rotation) leaves its leg where it is. A loop can be pickled.
 
     Attributes:
         q: The present answer (nq,); the same array after every step.
-        reached: Whether the last target was met within the tolerance.
-        slowed: Whether a speed limit cut the last step short; `reached` is False then, too.
+        reached: Whether every frame met its last target within the tolerance.
+        reached_by_foot: The same for each frame, in the order of `frames`.
+        slowed: Whether a speed limit cut the last step of a leg short, which has not reached its target then.
     """
 
     def __init__(
@@ -65,34 +65,41 @@ class Online:
             DescriptionError: A frame is not on a leg of six joints, or a number is wrong.
             UnknownNameError: A frame is unknown.
         """
+        self._robot = robot
+        self._options = {"frames": tuple(frames), "tolerance": tolerance, "dt": dt, "base": base}
+        self._options["max_iterations"] = max_iterations
         self._tolerance = tolerance  # of the distance between matrices, never less than the angle
-        self._settings = Dls(tolerance=tolerance / 4, max_iterations=max_iterations, restarts=0)
         self.q = robot.neutral if q0 is None else np.array(q0, dtype=float)
         if self.q.shape != (robot.nq,):
             raise DescriptionError(f"q0 has shape {self.q.shape}; ({robot.nq},) is accepted")
-        self.reached, self.slowed = False, False
-        self._legs = [_own_leg(robot, name) for name in frames]
-        formulas = [exact_formula(own) for own in self._legs]
-        self._formulas = [solve for solve in formulas if solve is not None]
-        self._exact = len(self._formulas) == len(formulas)
-        self._columns = _as_slice(np.concatenate([own.columns for own in self._legs]))
-        self._subtrees = [robot.subtree((name,)) for name in frames]
-        self._subtree_data = {subtree.frames[0]: subtree.model.createData() for subtree in self._subtrees}
-        first = robot.nq - len(robot.joints)
-        speeds = robot.velocity[np.concatenate([own.columns for own in self._legs]) - first]
-        self._largest = None if dt is None else speeds * dt
-        self._carry = _carry(robot, self.q, base)
+        axes = [_own_leg(robot, name) for name in frames]
+        self._legs = [_Leg(own, robot, tolerance / 4, max_iterations, dt) for own in axes]
+        self._formulas = [leg.exact for leg in self._legs if leg.exact is not None]
+        self._exact = len(self._formulas) == len(self._legs)
+        self._columns = _as_slice(np.concatenate([own.columns for own in axes]))
+        self._largest = None if dt is None else np.concatenate([leg.largest for leg in self._legs])
+        self._all, self._none = (True,) * len(axes), (False,) * len(axes)
+        self.reached, self.slowed, self.reached_by_foot = False, False, self._none
+        self._base: Array | None = None
+        self._carry = self._standing(base)
         self._trial = self.q[self._columns].copy()
-        self._model = _bare_legs(self._legs)
+        self._model = bare_legs(axes)
         self._data = self._model.createData()
         self._tips = [self._data.oMf[self._model.getFrameId(name)] for name in frames]
         self._memory = self._trial.data
         self._pack = struct.Struct(f"{len(self._trial)}d").pack_into  # half the cost of an assignment
 
-    def step(self, *targets: npt.ArrayLike) -> Array:
-        """The next answer (nq,), for one target pose (4, 4) per frame in the order of `frames`."""
+    def step(self, *targets: npt.ArrayLike, base: npt.ArrayLike | None = None) -> Array:
+        """The next answer (nq,), for one target pose (4, 4) per frame in the order of `frames`.
+
+        Args:
+            targets: T_world_frame (4, 4), one for each frame.
+            base: T_world_pelvis (4, 4) from this step on; where it was if left out.
+        """
         if len(targets) != len(self._tips):
             raise DescriptionError(f"{len(targets)} targets were given for {len(self._tips)} frames")
+        if base is not None:
+            self._carry = self._standing(base)
         if self._carry is not None:
             targets = tuple(self._carry @ _asarray(T, float) for T in targets)
         numbers = [_asarray(T, float).ravel().tolist() for T in targets]
@@ -101,12 +108,11 @@ class Online:
             for solve, T in zip(self._formulas, numbers):  # noqa: B905  # counted above, and strict costs time
                 angles += solve(T)
             self._pack(self._memory, 0, *angles)
-            if self._reached(numbers):
-                return self._accept()
-        if self._iterate(numbers):
-            return self._accept()
-        self.reached = self.slowed = False
-        return self.q
+            if self._reached(numbers) and self._within_speeds():
+                self.q[self._columns] = self._trial
+                self.reached, self.slowed, self.reached_by_foot = True, False, self._all
+                return self.q
+        return self._leg_by_leg(numbers)
 
     def _reached(self, targets: list[list[float]]) -> bool:
         """Whether Pinocchio finds every frame at its target."""
@@ -116,39 +122,99 @@ class Online:
                 return False
         return True
 
-    def _accept(self) -> Array:
-        """Take the trial, as far as the speed limits allow."""
-        self.reached = True
-        if self._largest is not None:
-            step = self._trial - self.q[self._columns]
-            excess = float((np.abs(step) / self._largest).max())
-            self.slowed = excess > 1.0
-            if self.slowed:
-                self.q[self._columns] += step / excess
-                self.reached = False
-                return self.q
-        self.q[self._columns] = self._trial
+    def _within_speeds(self) -> bool:
+        """Whether the speed limits allow the whole step to the trial."""
+        if self._largest is None:
+            return True
+        return bool((np.abs(self._trial - self.q[self._columns]) <= self._largest).all())
+
+    def _leg_by_leg(self, targets: list[list[float]]) -> Array:
+        """Each leg on its own: its answer or nearest posture, or as far on the way as its speeds allow."""
+        met = self._each_reached(targets) if self._exact else self._none
+        places = [slice(LEG_JOINTS * j, LEG_JOINTS * (j + 1)) for j in range(len(self._legs))]
+        for j, leg in enumerate(self._legs):
+            if not met[j]:
+                self._trial[places[j]] = leg.nearest(targets[j], self.q[leg.columns])
+        if not all(met):
+            _forward_kinematics(self._model, self._data, self._trial)
+            met = self._each_reached(targets)
+        full = [leg.move(self.q, self._trial[place]) for leg, place in zip(self._legs, places, strict=True)]
+        self.reached_by_foot = tuple(a and b for a, b in zip(met, full, strict=True))
+        self.reached, self.slowed = all(self.reached_by_foot), not all(full)
         return self.q
 
-    def _iterate(self, targets: list[list[float]]) -> bool:
-        """A few damped steps per leg: from the last answer, then from the nearest closed form."""
-        for j, (subtree, own, target) in enumerate(zip(self._subtrees, self._legs, targets, strict=True)):
-            T = np.array(target).reshape(4, 4)
-            if not np.isfinite(T).all():
-                return False
-            p, R = T[None, None, :3, 3], T[None, :3, :3]
-            goal = Goal(own.frame, np.zeros((1, 3)), p, R, np.ones((1, 1)), 1.0)
-            near = approximate_formula(own)
-            kernel = SampleKernel(subtree, self._subtree_data[own.frame], [goal], 0)
-            seeds = [self.q[own.columns]]
-            if near is not None:
-                seeds.append(np.array(near(target)))
-            for seed in seeds:
-                answer = minimise(kernel, seed[:, None], self._settings)
-                if answer.reached(self._settings.tolerance)[0]:
-                    break
-            self._trial[LEG_JOINTS * j : LEG_JOINTS * (j + 1)] = answer.q[:, 0]
-        return self._reached(targets)
+    def _each_reached(self, targets: list[list[float]]) -> tuple[bool, ...]:
+        """Whether each frame is at its target where forward kinematics was evaluated last."""
+        tips = [tip.homogeneous.ravel().tolist() for tip in self._tips]
+        return tuple(dist(tip, T) < self._tolerance for tip, T in zip(tips, targets, strict=True))
+
+    def _standing(self, base: npt.ArrayLike | None) -> Array | None:
+        """Takes world targets to the robot at its own placement (4, 4); None where it stands there."""
+        robot = self._robot
+        if base is None and robot.base == "fixed":
+            return None
+        if base is None:
+            T = pin.XYZQUATToSE3(self.q[:7]).homogeneous
+        else:
+            T = _asarray(base, float)
+            if T.shape != (4, 4) or not is_pose(T.ravel().tolist()):
+                T = pose_array("base", T[None])[0]  # straightened, or refused with the reason
+            if robot.base == "floating":
+                self.q[:7] = pin.SE3ToXYZQUAT(pin.SE3(T))
+            self._base = T
+        inverse = np.eye(4)
+        inverse[:3, :3], inverse[:3, 3] = T[:3, :3].T, -T[:3, :3].T @ T[:3, 3]
+        return np.asarray(robot.placement @ inverse)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """The arguments and the state: Pinocchio's data and the bound formulas are made again."""
+        state = self.reached, self.slowed, self.reached_by_foot
+        return _restored, (self._robot, self.q, {**self._options, "base": self._base}, state)
+
+
+def _restored(robot: Robot, q: Array, options: dict[str, Any], state: tuple[Any, ...]) -> Online:
+    loop = Online(robot, q, **options)
+    loop.reached, loop.slowed, loop.reached_by_foot = state
+    return loop
+
+
+class _Leg:
+    """One leg of the loop: its formulas, its nearest posture, its largest step."""
+
+    def __init__(
+        self, own: LegAxes, robot: Robot, tolerance: float, max_iterations: int, dt: float | None
+    ) -> None:
+        self.columns = own.columns
+        self.exact = exact_formula(own)
+        self._formula = self.exact or approximate_formula(own)
+        steps = max_iterations if self.exact is None else (max_iterations + 1) // 2  # nothing to reach
+        self._posture = NearestPosture(own, tolerance=tolerance, max_iterations=steps)
+        speeds = robot.velocity[own.columns - (robot.nq - len(robot.joints))]
+        self.largest = None if dt is None else speeds * dt
+
+    def nearest(self, T: list[float], q: Array) -> Array:
+        """The posture (6,) nearest to the target pose (16 numbers), followed from q.
+
+        The formula's answer, cut off at the limits, is a second start where it lies nearer than what q leads
+        to, or may reach the target.
+        """
+        if not is_pose(T):
+            return q
+        target = pin.SE3(np.array(T).reshape(4, 4))
+        if self._formula is None:
+            return self._posture.from_start(q, target)[0]
+        seed = np.array(self._formula(T))
+        return self._posture.of_two_starts(q, seed, target, promising=self.exact is None)
+
+    def move(self, q: Array, answer: Array) -> bool:
+        """Move q (nq,) to the leg's answer (6,), or on a straight way as far as its speeds allow: False."""
+        step = answer - q[self.columns]
+        excess = 0.0 if self.largest is None else float((np.abs(step) / self.largest).max())
+        if excess > 1.0:
+            q[self.columns] += step / excess
+            return False
+        q[self.columns] = answer
+        return True
 
 
 def _own_leg(robot: Robot, frame: str) -> LegAxes:
@@ -156,29 +222,6 @@ def _own_leg(robot: Robot, frame: str) -> LegAxes:
     if own is None:
         raise DescriptionError(f"{frame} is not on a leg of six revolute joints; use ik.solve for it")
     return own
-
-
-def _carry(robot: Robot, q: Array, base: npt.ArrayLike | None) -> Array | None:
-    """Takes world targets to the robot at its own placement (4, 4); None where it stands there."""
-    if base is not None:
-        return np.asarray(robot.placement @ np.linalg.inv(pose_array("base", np.asarray(base)[None])[0]))
-    if robot.base == "floating":
-        return np.asarray(robot.placement @ pin.XYZQUATToSE3(q[:7]).inverse().homogeneous)
-    return None
-
-
-def _bare_legs(legs: Sequence[LegAxes]) -> Any:
-    """Pinocchio's model of nothing but the legs' joints and tips: half the cost of the whole robot's."""
-    model = pin.Model()
-    for own in legs:
-        parent, before = 0, np.zeros(3)
-        for j in range(LEG_JOINTS):
-            place = pin.SE3(np.eye(3), own.points[j] - before)
-            joint = pin.JointModelRevoluteUnaligned(own.axes[j])
-            parent, before = model.addJoint(parent, joint, place, f"{own.frame}_{j}"), own.points[j]
-        tip = pin.SE3(own.tip[:3, :3], own.tip[:3, 3] - before)
-        model.addFrame(pin.Frame(own.frame, parent, tip, pin.FrameType.OP_FRAME))
-    return model
 
 
 def _as_slice(columns: Index) -> slice | Index:

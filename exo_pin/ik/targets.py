@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import isfinite
 
 import numpy as np
 import numpy.typing as npt
@@ -155,6 +156,15 @@ def deviation(T: Array) -> Array:
         off += abs(x[12]) + abs(x[13]) + abs(x[14]) + abs(x[15] - 1.0)
         off[~np.isfinite(off + x[3] + x[7] + x[11])] = np.inf
     return np.asarray(off)
+
+
+def is_pose(T: list[float]) -> bool:
+    """Whether 16 numbers, row by row, are a pose: `deviation` in plain floats, for one sample at a time."""
+    a0, b0, c0, x, a1, b1, c1, y, a2, b2, c2, z, *last = T
+    off = abs(a0 * a0 + a1 * a1 + a2 * a2 - 1.0) + abs(b0 * b0 + b1 * b1 + b2 * b2 - 1.0)
+    off += abs(a0 * b0 + a1 * b1 + a2 * b2) + abs(a1 * b2 - a2 * b1 - c0)
+    off += abs(a2 * b0 - a0 * b2 - c1) + abs(a0 * b1 - a1 * b0 - c2)
+    return off <= _ORTHONORMAL and isfinite(x + y + z) and last == [0.0, 0.0, 0.0, 1.0]
 
 
 def straightened(T: Array) -> Array:
