@@ -93,10 +93,11 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
 
 
 def plausibility(args: argparse.Namespace, robot: Robot, walk: Gait) -> Plausibility:
-    """The verdict on a walk as it was read: by its motion, and by the markers of a marker trial."""
+    """The verdict on a walk as it was read: by its motion, its markers and its force plates."""
     from exo_pin import kinematics
 
-    return kinematics.plausibility(robot, walk, more=trials.doubts(args))
+    more = (*trials.doubts(args), *kinematics.disagreements(args.event_differences))
+    return kinematics.plausibility(robot, walk, more=more)
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:

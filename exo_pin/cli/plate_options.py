@@ -12,10 +12,12 @@ from exo_pin.errors import FormatError, GaitError
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
     from exo_pin.gait import Gait
+    from exo_pin.gait.trial import ForcePlate
 
 
 def add(group: argparse._ArgumentGroup) -> None:
     """The option."""
+    group.set_defaults(event_differences=())
     group.add_argument(
         "--forces",
         metavar="FILE",
@@ -27,6 +29,9 @@ def add(group: argparse._ArgumentGroup) -> None:
 def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
     """The walk with the events that force plates measured, where an option or a C3D without events has them.
 
+    How its own events and those of its kinematics differ from the plates' is a remark of the walk, and is
+    kept in the arguments for the verdict on it.
+
     Args:
         args: The command's arguments.
         body: Who walks.
@@ -36,26 +41,42 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
         FormatError: The file that is named cannot be read, no foot can be found on its plates, or the
             walk is no trial.
     """
-    own = not walk.events and Path(args.gait).suffix.lower() == ".c3d"
-    if not (args.forces or own):
+    if not (args.forces or Path(args.gait).suffix.lower() == ".c3d"):
         return walk
-    from exo_pin.formats import load_forces
-    from exo_pin.kinematics import with_plates
+    from exo_pin.kinematics import event_differences, with_plates
     from exo_pin.robot import load_robot
 
     path = Path(args.forces or args.gait)
     if walk.periodic:
         raise FormatError(path, f"measured on a trial, but {args.gait} is one cycle that repeats")
+    plates = _plates(args, path)
+    if not (plates or args.forces):
+        return walk
+    robot = load_robot(body)
+    args.event_differences = event_differences(robot, walk, plates)
+    known = _remarked(walk, "against the force plates: ", "; ".join(map(str, args.event_differences)))
+    if walk.events and not args.forces:
+        return known
     try:
-        plates = load_forces(args.files.open(path, "forces"))
-    except FormatError:
-        if args.forces:
-            raise
-        return walk  # a file whose unit of length is not known has no plates
-    try:
-        return with_plates(load_robot(body), walk, plates) if plates or args.forces else walk
+        return with_plates(robot, known, plates)
     except GaitError as error:
         if args.forces:
             raise FormatError(path, str(error)) from error
-        remark = f"its force plates give no events: {error}"
-        return dataclasses.replace(walk, remarks=(*walk.remarks, remark))
+        return _remarked(walk, "its force plates are not used: ", str(error))
+
+
+def _plates(args: argparse.Namespace, path: Path) -> tuple[ForcePlate, ...]:
+    """The force plates of a file; none where only the walk's own file has them and they cannot be read."""
+    from exo_pin.formats import load_forces
+
+    try:
+        return load_forces(args.files.open(path, "forces"))
+    except FormatError:
+        if args.forces:
+            raise
+        return ()  # a file whose unit of length is not known has no plates
+
+
+def _remarked(walk: Gait, what: str, words: str) -> Gait:
+    """The walk with one more remark, if there are words for it."""
+    return dataclasses.replace(walk, remarks=(*walk.remarks, what + words)) if words else walk

@@ -17,7 +17,7 @@ from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
-from exo_pin.gait.even_clock import even_clock
+from exo_pin.gait.even_clock import even_clock, evened_remark, within
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
 
@@ -173,10 +173,8 @@ def _on_even_clock(record: _Record) -> _Record:
     even = even_clock(record.time)
     if even is None:
         return record
-    moved = 1e3 * float(abs(even - record.time).max())
-    how = f"time stamps, rounded by the file, are evened to {1 / (even[1] - even[0]):.6g} Hz"
-    remark = f"{how} (moved by {moved:.2g} ms at most)"
-    events = tuple(replace(e, time=min(max(e.time, float(even[0])), float(even[-1]))) for e in record.events)
+    remark = evened_remark(record.time, even)
+    events = tuple(replace(e, time=within(e.time, even)) for e in record.events)
     return replace(record, time=even, events=events, remarks=(*record.remarks, remark))
 
 

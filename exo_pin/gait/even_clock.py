@@ -53,6 +53,18 @@ def even_clock(time: Array) -> Array | None:
     return None
 
 
+def evened_remark(time: Array, even: Array) -> str:
+    """The sentence for a reader whose time stamps `(n,)` were moved to even ones [s]."""
+    moved = 1e3 * float(np.abs(even - time).max())
+    how = f"time stamps, rounded by the file, are evened to {1 / (even[1] - even[0]):.6g} Hz"
+    return f"{how} (moved by {moved:.2g} ms at most)"
+
+
+def within(event_time: float, even: Array) -> float:
+    """An event's time [s], kept within the evened clock."""
+    return min(max(event_time, float(even[0])), float(even[-1]))
+
+
 def _last_decimal(time: Array) -> float | None:
     """The unit of the last decimal [s] that the stamps were rounded to, or None."""
     for decimals in range(1, _MOST_DECIMALS + 1):

@@ -2,6 +2,7 @@
 
 from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
+from exo_pin.kinematics.event_differences import EventDifference, disagreements, event_differences
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
@@ -16,6 +17,7 @@ __all__ = [
     "CenterOfMass",
     "Contacts",
     "CurveOutlier",
+    "EventDifference",
     "JointRates",
     "StanceSlide",
     "WalkNumbers",
@@ -25,6 +27,8 @@ __all__ = [
     "contacts",
     "curve_outliers",
     "deviation_from_parallel",
+    "disagreements",
+    "event_differences",
     "events",
     "jacobian",
     "joint_frames",

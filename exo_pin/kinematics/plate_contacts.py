@@ -43,7 +43,7 @@ class _PlateEvents(NamedTuple):
 
     Attributes:
         events: Sorted by time.
-        remarks: Contacts that give no event and why, a sentence each.
+        remarks: Why contacts give no event, a sentence for each reason.
     """
 
     events: tuple[Event, ...]
@@ -71,20 +71,22 @@ def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _Pl
     if gait.base is None:
         raise GaitError("the pelvis does not move in the world, so no foot can be found on a force plate")
     soles = sole_points(robot, gait).mean(axis=2)
-    found, remarks = list[Event](), list[str]()
+    found, unused = list[Event](), dict[str, list[str]]()  # reason -> contacts
     for plate in forces:
         for contact in force_plates.contacts(plate.time, plate.force[:, 2]):
             side, why = _whose(gait.time, soles, plate, contact)
             if why:
                 start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
-                remarks.append(f"no event by {plate.name}, {start:.2f} .. {stop:.2f} s: {why}")
+                unused.setdefault(why, []).append(f"{plate.name}, {start:.2f} .. {stop:.2f} s")
             times: dict[EventKind, float | None] = {"heel_strike": contact.strike, "toe_off": contact.off}
             for kind, t in times.items():
                 if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
                     found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
+    contacts = [f"{'; '.join(of)}: {why}" for why, of in unused.items()]
     if not found:
-        raise GaitError("; ".join(("no contact of a foot with a force plate was found", *remarks)))
-    return _PlateEvents(tuple(sorted(found, key=lambda event: event.time)), tuple(remarks))
+        raise GaitError(": ".join(("no contact of a foot with a force plate was found", *contacts)))
+    remarks = tuple(f"no event by {words}" for words in contacts)
+    return _PlateEvents(tuple(sorted(found, key=lambda event: event.time)), remarks)
 
 
 def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
@@ -109,7 +111,7 @@ def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
         known = with_events(robot, gait).events
     except GaitError:
         return gait
-    others = [e for e in known if not any(_same(e, plate) for plate in measured)]
+    others = [e for e in known if not any(same_moment(e, plate) for plate in measured)]
     if not gait.events:
         late = {kind: _late(known, measured, kind) for kind in EVENT_KINDS}
         moved = [Event(e.time + late[e.kind], e.kind, e.side, e.source + _MOVED) for e in others]
@@ -121,11 +123,11 @@ def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
 def _late(known: Iterable[Event], measured: Iterable[Event], kind: EventKind) -> float:
     """How much later than the known events of a kind the plates' are, in the mean [s]; 0 if unknown."""
     known = list(known)
-    apart = [m.time - e.time for m in measured if m.kind == kind for e in known if _same(e, m)]
+    apart = [m.time - e.time for m in measured if m.kind == kind for e in known if same_moment(e, m)]
     return float(np.mean(apart)) if apart else 0.0
 
 
-def _same(one: Event, other: Event) -> bool:
+def same_moment(one: Event, other: Event) -> bool:
     """Whether two ways found the same moment of the same foot."""
     return (one.kind, one.side) == (other.kind, other.side) and abs(one.time - other.time) < _SAME_CONTACT
 

@@ -1,4 +1,4 @@
-"""Plausibility of a walk on a body: its angles, outliers and joint ranges in one verdict."""
+"""Plausibility of a walk on a body: joint ranges, outliers and sliding feet in one verdict."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ from collections.abc import Iterable, Sequence
 
 from exo_pin.gait import Gait, Plausibility, implausibilities
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
+from exo_pin.kinematics.stance_slide import LARGE_SLIDE, largest_slide
 from exo_pin.robot import Robot
 
 
 def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plausibility:
     """Whether a walk was probably read as it was walked; every reason against it.
 
-    A walk is plausible where no sample stands out of its curve, and no joint leaves what a person can do.
+    A walk is plausible where no sample stands out of its curve, no joint leaves what a person can do, and no
+    standing foot slides over the ground.
 
     Args:
         robot: The robot that walks, on the person's body.
@@ -20,7 +22,19 @@ def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plaus
         more: Reasons found elsewhere: how markers are met, how force plates were read.
     """
     found = Plausibility(implausibilities(gait))
-    return found.with_reasons((*_outliers(curve_outliers(gait)), *more))
+    return found.with_reasons((*_outliers(curve_outliers(gait)), *_slide(robot, gait), *more))
+
+
+def _slide(robot: Robot, gait: Gait) -> tuple[str, ...]:
+    """The largest slide of a standing foot, where it is too large for one that stands."""
+    found = largest_slide(robot, gait)
+    if found is None or found.distance <= LARGE_SLIDE:
+        return ()
+    when = f"{found.start:.2f} .. {found.end:.2f} s"
+    return (
+        f"the {found.side} foot slides {1e3 * found.distance:.0f} mm while it stands, {when}, more than "
+        f"{1e3 * LARGE_SLIDE:.0f}: is the body the person's (--stature, --body)?",
+    )
 
 
 def _outliers(found: Sequence[CurveOutlier]) -> tuple[str, ...]:

@@ -133,3 +133,14 @@ def test_unusable_poses_are_refused(turned):
         Poses(time, wrong, {"left_foot": T})
     with pytest.raises(GaitError, match="outside the walk"):
         Poses(time, None, {"left_foot": T}, events=[Event(9, "toe_off", "left")])
+
+
+def test_rounded_time_stamps_are_evened_and_that_is_stated(path, turned):
+    exact = np.arange(60) / 60
+    rounded = Poses(np.round(exact, 3), None, {"left_foot": np.tile(np.eye(4), (60, 1, 1))})
+    save_poses(rounded, path)
+    back = load_poses(path)
+    np.testing.assert_allclose(back.time, exact, atol=1e-12)
+    assert "60 Hz" in back.remarks[0]
+    save_poses(Poses(exact, None, rounded.targets), path)
+    assert load_poses(path).remarks == ()

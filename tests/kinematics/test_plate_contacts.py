@@ -108,6 +108,16 @@ def test_a_plate_that_two_feet_load_gives_no_event_and_that_is_stated(robot):
         assert "both feet load it" in found.remarks[0]
 
 
+def test_contacts_with_the_same_reason_share_one_remark(robot):
+    walk = normative_gait("free").repeated(2)
+    alone = plate_under(robot, walk, 0, (0.0, 0.6))
+    far = [plate_under(robot, walk, 1, times) for times in ((0.55, 1.2), (1.5, 1.8))]
+    far = [dataclasses.replace(plate, point=plate.point + np.array([0.0, 5.0, 0.0])) for plate in far]
+    (remark,) = with_plates(robot, walk, [alone, *far]).remarks
+    assert remark.count("no foot is there") == 1
+    assert remark.count(" .. ") == 2
+
+
 @pytest.mark.parametrize(("length", "counted"), [(0.01, 0), (0.04, 1), (0.3, 1)])
 def test_a_contact_that_the_recording_cuts_off_has_its_strike_or_toe_off(length, counted):
     t = np.arange(0, 2, 1e-3)

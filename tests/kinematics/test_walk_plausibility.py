@@ -35,6 +35,17 @@ def test_a_joint_outside_human_range_is_a_reason(robot):
     )
 
 
+def test_a_foot_that_slides_is_a_reason_that_names_foot_and_distance(robot):
+    """A pelvis that goes by faster than the feet: they are dragged along."""
+    walk = normative_gait("free").repeated(3)
+    base = np.array(walk.base)
+    base[:, 0, 3] += 2.0 * walk.time
+    dragged = Gait(walk.time, walk.q, base=base, events=walk.events)
+    (reason,) = plausibility(robot, dragged).reasons
+    assert "foot slides" in reason
+    assert "body" in reason
+
+
 def test_reasons_found_elsewhere_count_once():
     found = Plausibility(("a",)).with_reasons(("b", "a"))
     assert found.reasons == ("a", "b")

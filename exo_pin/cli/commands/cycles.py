@@ -76,8 +76,6 @@ def _rounded(value: float, unit: str) -> str:
 
 
 def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers) -> None:
-    from exo_pin.gait.zeni_method import ZENI
-
     sources = walk_output.event_sources(gait)
     print(f"source: {gait.source or 'not stated'}; events: {', '.join(sources)}")
     title = f"{args.gait}: {walk_output.count(cut)}"
@@ -86,11 +84,6 @@ def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers
     for k, citation in enumerate(found.citations.values(), 1):
         print(f"{k}  {citation}")
     print("-  no published range was checked")
-    if any(ZENI in source and "plate" not in source for source in sources):
-        print(
-            "events by kinematics: strikes are up to 60 ms early, toe-offs late, so stance and double support"
-        )
-        print("come out too long; --forces sets them by force plates")
     if args.gait not in SPEEDS and not trials.sized(args):
         print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
     if cut.outliers:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import TYPE_CHECKING
 
 from exo_pin.cli import options, show
@@ -34,6 +35,8 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin.robot import load_robot
 
     table = load_poses(args.poses)
+    for remark in table.remarks:
+        print(f"note: {show.plain(remark)}", file=sys.stderr)
     robot = load_robot(options.body_from(args))
     track = ik.track(robot, table.targets, base=table.base)
     gait = Gait(

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from exo_pin.arrays import Array
     from exo_pin.demand import RangeDemand
     from exo_pin.gait import Gait, Plausibility
-    from exo_pin.kinematics import CurveOutlier, WalkNumbers
+    from exo_pin.kinematics import CurveOutlier, EventDifference, WalkNumbers
 
 _EXAMPLES = """examples:
   exo-pin info walk.mot
@@ -46,6 +46,7 @@ class _Info:
     Attributes:
         gait: The walk, with its events or those of its kinematics.
         events_note: Why there are no events; empty where there are.
+        differences: Of the events to those of force plates.
         ranges: By joint: the range of the angles against the robot's limits.
         peak_speeds: Of the joints in the same order [rad/s].
         numbers: Cycles and spatiotemporal numbers.
@@ -56,6 +57,7 @@ class _Info:
 
     gait: Gait
     events_note: str
+    differences: tuple[EventDifference, ...]
     ranges: dict[str, RangeDemand]
     peak_speeds: Array
     numbers: WalkNumbers
@@ -77,6 +79,7 @@ def _found(args: argparse.Namespace) -> _Info:
     return _Info(
         gait=gait,
         events_note=note,
+        differences=args.event_differences,
         ranges=range_demands(robot, robot.from_gait(gait)),
         peak_speeds=np.abs(gait.dq).max(axis=0),
         numbers=walk_numbers(robot, gait),
@@ -106,6 +109,10 @@ def _to_json(found: _Info) -> dict[str, Any]:
         },
         "events": [
             {"time_s": e.time, "side": e.side, "kind": e.kind, "source": e.source} for e in gait.events
+        ],
+        "event_differences": [
+            {"source": x.source, "kind": x.kind, "mean_s": x.mean, "largest_s": x.largest, "n": len(x.late)}
+            for x in found.differences
         ],
         "events_note": found.events_note,
         "markers": found.markers,

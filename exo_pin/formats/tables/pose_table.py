@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -19,6 +19,7 @@ from exo_pin.formats.tables.metadata import Metadata, read_metadata
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
+from exo_pin.gait.even_clock import even_clock, evened_remark, within
 from exo_pin.gait.validation import check_events, check_poses, check_time, frozen
 
 _TIME = "time_s"
@@ -37,6 +38,7 @@ class Poses:
         events: Foot contacts, sorted by time, as in a `Gait`.
         periodic: Whether the motion repeats; then it stores [0, T).
         source: Where the numbers come from, in words.
+        remarks: What reading the file corrected, a plain sentence each.
 
     Raises:
         GaitError: If time, poses or events are unusable; the message says which and where.
@@ -49,6 +51,7 @@ class Poses:
     events: tuple[Event, ...]
     periodic: bool
     source: str
+    remarks: tuple[str, ...]
 
     def __init__(
         self,
@@ -59,6 +62,7 @@ class Poses:
         events: Iterable[Event] = (),
         periodic: bool = False,
         source: str = "",
+        remarks: Iterable[str] = (),
     ) -> None:
         set_fields(
             self,
@@ -68,6 +72,7 @@ class Poses:
             events=tuple(sorted(events, key=lambda event: event.time)),
             periodic=bool(periodic),
             source=str(source),
+            remarks=tuple(remarks),
         )
         self._check()
 
@@ -89,6 +94,7 @@ def load_poses(path: str | Path) -> Poses:
     """Read columns `time_s` and, per frame, `<frame>_{x,y,z}_m` and `<frame>_{qw,qx,qy,qz}`.
 
     Frames are `left_foot`, `right_foot` (at least one) and `pelvis` (the base, optional), all in the world.
+    Time stamps that the file rounded are put back on their even grid; `remarks` states it.
 
     Raises:
         FormatError: If the file is not such a table; with file, line and reason.
@@ -104,19 +110,26 @@ def load_poses(path: str | Path) -> Poses:
     base = read_poses(table, _PELVIS) if _PELVIS in present else None
     targets = {frame: read_poses(table, frame) for frame in feet}
     source = path.name if metadata.source is None else metadata.source
+    time = table.times(_TIME)
+    even = even_clock(time)
     try:
         return Poses(
-            table.times(_TIME),
+            time if even is None else even,
             base,
             targets,
-            events=metadata.events,
+            events=metadata.events if even is None else tuple(_kept_within(metadata.events, even)),
             periodic=metadata.periodic,
             source=source,
+            remarks=() if even is None else (evened_remark(time, even),),
         )
     except FormatError:
         raise
     except GaitError as error:
         raise FormatError(path, str(error)) from error
+
+
+def _kept_within(events: Iterable[Event], even: Array) -> Iterator[Event]:
+    return (replace(event, time=within(event.time, even)) for event in events)
 
 
 def save_poses(poses: Poses, path: str | Path) -> None:
