@@ -3,8 +3,8 @@
 The best motion minimises, sample by sample, the sum of squared distances of the four sole corners of each
 foot from their recorded places: weighted least squares over position and rotation. The weights need no
 choice, because both are distances of points on the sole. The motion keeps the device's joint limits. Where
-the best configurations of the samples would exceed a velocity limit, the best motion as a whole is found that
-keeps the velocity limits, too.
+the best configurations of the samples would exceed a limit of speed or acceleration, the best motion as a
+whole is found that keeps these limits, too, between the samples as well.
 """
 
 from __future__ import annotations
@@ -20,9 +20,11 @@ from exo_pin.anatomy import FEET, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip_cardan_angles import hip_angles
 from exo_pin.arrays import Array
 from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, corners, sole_targets
+from exo_pin.demand import acceleration_limits
 from exo_pin.devices import Device
 from exo_pin.gait import Gait
-from exo_pin.ik.least_squares.velocity_limited import velocity_limited
+from exo_pin.ik.least_squares.rate_limited import RateLimits, rate_limited
+from exo_pin.ik.least_squares.rate_rows import Clock
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot, load_robot
@@ -90,7 +92,7 @@ def projected(recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CON
 def best(
     recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CONDITIONS, *, settings: ik.Dls = SOLVER
 ) -> Motion:
-    """The device's best motion towards the recorded feet, within its joint and velocity limits.
+    """The device's best motion towards the recorded feet, within its ranges, speeds and accelerations.
 
     Args:
         recorded: The walk.
@@ -109,7 +111,7 @@ def best(
         return q, (missed**2).sum(axis=(1, 2, 3))
 
     q = _improved_by_neighbours(solved, start)
-    q = velocity_limited(robot, targets, q, velocity_step_limits(recorded.gait, robot), base=base)
+    q = rate_limited(robot, targets, q, rate_limits(recorded.gait, robot), base=base)
     return _motion(recorded, robot, q, base, required)
 
 
@@ -127,10 +129,10 @@ def _improved_by_neighbours(solved: Callable[[Array], tuple[Array, Array]], star
     return q
 
 
-def velocity_step_limits(gait: Gait, robot: Robot) -> Array:
-    """Largest step of each joint between samples at its velocity limit: (n - 1, nq); periodic: (n, nq)."""
-    end = [gait.time[0] + gait.duration] if gait.periodic else []
-    return np.asarray(np.diff(gait.time, append=end)[:, None] * robot.velocity)
+def rate_limits(gait: Gait, robot: Robot) -> RateLimits:
+    """The largest speeds and accelerations of a device's joints, on the clock of a walk."""
+    clock = Clock(gait.time, gait.duration if gait.periodic else None)
+    return RateLimits(clock, robot.velocity, acceleration_limits(robot))
 
 
 def plain_copy(recorded: Walk, robot: Robot, required: Array) -> Array:

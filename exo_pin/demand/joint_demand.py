@@ -11,14 +11,11 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.demand.quantity import PeakDemand, RangeDemand, range_demands
-from exo_pin.devices import SLIDES
+from exo_pin.devices import SLIDES, movement_of
+from exo_pin.devices.actuator import ACCELERATION_LIMIT, DEFAULT_ACCELERATIONS
 from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
-
-ACCELERATION_LIMIT = 200.0
-"""Largest joint acceleration [rad/s^2], a design choice: no source gives one for these devices; the very fast
-walk of Schwartz (2008) requires up to 150."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +87,7 @@ class JointDemand:
 
 
 def joint_demands(
-    robot: Robot, gait: Gait, *, acceleration: float = ACCELERATION_LIMIT, torques: Torques | None = None
+    robot: Robot, gait: Gait, *, acceleration: float | None = None, torques: Torques | None = None
 ) -> tuple[JointDemand, ...]:
     """The demand of a walk on each joint that gait and robot share, in the order of `exo_pin.anatomy.JOINTS`.
 
@@ -99,13 +96,16 @@ def joint_demands(
     Args:
         robot: The device. Angles and rates are those of its own joints, in its own hip order.
         gait: The walk.
-        acceleration: Largest acceleration of every joint [rad/s^2].
+        acceleration: Largest acceleration of every joint [rad/s^2]; the device's own if left out.
         torques: Joint torques of this walk, about the clinical axes; unknown if left out.
 
     Raises:
         GaitError: The torques are at other times than the walk.
     """
     own, tau = _in_hip_order(robot, gait), None if torques is None else torques.at(gait.time)
+    available = (
+        acceleration_limits(robot) if acceleration is None else np.full(len(robot.joints), acceleration)
+    )
     positions = range_demands(robot, robot.from_gait(gait))
     found = []
     for k, name in enumerate(JOINTS):
@@ -115,11 +115,20 @@ def joint_demands(
                 joint=name,
                 position=positions[name],
                 speed=PeakDemand(own.dq[:, k], float(robot.velocity[j])),
-                acceleration=PeakDemand(own.ddq[:, k], acceleration),
+                acceleration=PeakDemand(own.ddq[:, k], float(available[j])),
                 torque=None if tau is None else _torque(tau[:, k], float(robot.effort[j])),
             )
             found.append(demand)
     return tuple(found)
+
+
+def acceleration_limits(robot: Robot) -> Array:
+    """Largest accelerations (J,) of a robot's joints by its record [rad/s^2]; infinite for slides [m/s^2]."""
+    if robot.device is None:
+        return np.array([DEFAULT_ACCELERATIONS.get(movement_of(j), ACCELERATION_LIMIT) for j in robot.joints])
+    actuators = robot.device.actuators
+    limits = [actuators[movement_of(joint)].acceleration for joint in robot.joints]
+    return np.array(limits, dtype=float)
 
 
 def _torque(tau: Array, effort: float) -> PeakDemand | None:

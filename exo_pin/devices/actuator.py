@@ -7,12 +7,23 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+ACCELERATION_LIMIT = 200.0
+"""Largest joint acceleration [rad/s^2], a design choice: no source gives one for these devices; the very fast
+walk of Schwartz (2008) requires up to 150."""
+
 
 class Actuator(NamedTuple):
-    """Largest torque [N m] and speed [rad/s] at a joint (a slide: [N] and [m/s])."""
+    """What a joint can do at most (a slide: [N], [m/s], [m/s^2]).
+
+    Attributes:
+        effort: Torque [N m].
+        velocity: Speed [rad/s].
+        acceleration: Acceleration [rad/s^2]; None: that of `DEFAULT_ACCELERATIONS`.
+    """
 
     effort: float
     velocity: float
+    acceleration: float | None = None
 
 
 DEFAULT_ACTUATORS: Mapping[str, Actuator] = MappingProxyType(
@@ -31,6 +42,11 @@ DEFAULT_ACTUATORS: Mapping[str, Actuator] = MappingProxyType(
 )
 """Torques and speeds where no source gives them, a design choice: above what a 70 kg person's level walking
 at any of Schwartz's (2008) speeds needs; the paper gives none. Toes and slides likewise."""
+
+DEFAULT_ACCELERATIONS: Mapping[str, float] = MappingProxyType(
+    {name: math.inf if name.startswith("pelvis_") else ACCELERATION_LIMIT for name in DEFAULT_ACTUATORS}
+)
+"""Largest accelerations where no source gives them: `ACCELERATION_LIMIT`, and none for slides [m/s^2]."""
 
 ADDED_JOINT_RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
     {

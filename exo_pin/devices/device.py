@@ -12,7 +12,12 @@ from types import MappingProxyType
 from typing import Any
 
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
-from exo_pin.devices.actuator import ADDED_JOINT_RANGES, DEFAULT_ACTUATORS, Actuator
+from exo_pin.devices.actuator import (
+    ADDED_JOINT_RANGES,
+    DEFAULT_ACCELERATIONS,
+    DEFAULT_ACTUATORS,
+    Actuator,
+)
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
 
@@ -203,8 +208,10 @@ def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
     for name in given:
         if name not in DEFAULT_ACTUATORS:
             raise UnknownNameError("movement", name, DEFAULT_ACTUATORS)
-    actuator = Actuator(*map(float, given.get(movement, DEFAULT_ACTUATORS[movement])))
-    if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf):
+    effort, velocity, given_acceleration = given.get(movement, DEFAULT_ACTUATORS[movement])
+    own = DEFAULT_ACCELERATIONS[movement] if given_acceleration is None else given_acceleration
+    actuator = Actuator(float(effort), float(velocity), float(own))
+    if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf and own > 0.0):
         raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
     return actuator
 

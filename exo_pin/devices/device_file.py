@@ -36,8 +36,8 @@ def load(path: str | Path) -> Device:
     """Read a device file.
 
     `name`, `joints` and `source` are needed; a joint without its side means both. Torques are `effort_nm`
-    [N m] and `velocity_rad_s` [rad/s] (slides: `effort_n`, `velocity_m_s`); what is left out is the choice of
-    `exo_pin.devices.actuator`.
+    [N m], `velocity_rad_s` [rad/s] and `acceleration_rad_s2` [rad/s^2] (slides: `effort_n`, `velocity_m_s`,
+    `acceleration_m_s2`); what is left out is the choice of `exo_pin.devices.actuator`.
 
     Raises:
         FormatError: The file is no TOML, or a name or value in it is not accepted.
@@ -112,15 +112,18 @@ def _actuator(movement: str, numbers: object) -> Actuator:
     if movement not in DEFAULT_ACTUATORS:
         raise UnknownNameError("movement", movement, DEFAULT_ACTUATORS)
     slides = movement.startswith("pelvis_")
-    names = ("effort_n", "velocity_m_s") if slides else ("effort_nm", "velocity_rad_s")
+    names = (
+        ("effort_n", "velocity_m_s", "acceleration_m_s2")
+        if slides
+        else ("effort_nm", "velocity_rad_s", "acceleration_rad_s2")
+    )
     if not isinstance(numbers, dict) or not set(numbers) <= set(names):
-        raise DescriptionError(f"actuators.{movement}: {' and '.join(names)} are accepted")
+        raise DescriptionError(f"actuators.{movement}: {', '.join(names)} are accepted")
     if not all(type(x) in (int, float) for x in numbers.values()):
         raise DescriptionError(f"actuators.{movement}: {numbers} must be numbers")
-    effort, velocity = (
-        numbers.get(name, own) for name, own in zip(names, DEFAULT_ACTUATORS[movement], strict=True)
-    )
-    return Actuator(float(effort), float(velocity))
+    own = DEFAULT_ACTUATORS[movement]
+    effort, velocity = numbers.get(names[0], own.effort), numbers.get(names[1], own.velocity)
+    return Actuator(float(effort), float(velocity), numbers.get(names[2]))
 
 
 def _pairs(table: dict[str, Any], unit: Callable[[float], float]) -> dict[str, tuple[float, float]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.anatomy.names import Side
-from exo_pin.demand import ACCELERATION_LIMIT, joint_demands
+from exo_pin.demand import joint_demands
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.feasible.amplitude import largest_amplitude
@@ -27,7 +27,7 @@ def feasible(
     device: str | Device = "exo12",
     body: Body | None = None,
     *,
-    acceleration: float = ACCELERATION_LIMIT,
+    acceleration: float | None = None,
     gap: float = 0.0,
     torques: Torques | None = None,
 ) -> Feasibility:
@@ -37,7 +37,7 @@ def feasible(
         gait: The walk. The accelerations of a recording carry its noise: filter it first.
         device: Name, file or record.
         body: Who wears it; `Body.from_stature()` if left out.
-        acceleration: Largest acceleration of every joint [rad/s^2].
+        acceleration: Largest acceleration of every joint [rad/s^2]; the device's own if left out.
         gap: Distance that parts of the device must keep [m].
         torques: Joint torques of the walk; not checked if left out.
 

@@ -26,8 +26,8 @@ _EXAMPLES = """examples:
   exo-pin compare -o table.md                    also .csv and .json
 
 For every device: the best motion towards the recorded feet (least squares over the corners of the soles,
-within the joints' limits and speeds), and the plain copy of its joints. docs/devices.md explains the
-columns."""
+within the joints' ranges, speeds and accelerations), and the plain copy of its joints. docs/devices.md
+explains the columns."""
 
 _SAMPLES = 500  # of a recording are enough to compare choices of joints
 

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from exo_pin.cli import show
-from exo_pin.devices import DEVICES, Device, find, movement_of
+from exo_pin.devices import DEVICES, Actuator, Device, find, movement_of
 
 _EXAMPLES = """examples:
   exo-pin devices                    all of them
@@ -45,13 +45,18 @@ def _to_json(device: Device) -> dict[str, Any]:
         "locked": device.locked,
         "added": device.added,
         "pelvis": device.pelvis,
-        "actuators": {name: actuator._asdict() for name, actuator in device.actuators.items()},
+        "actuators": {name: _limits(actuator) for name, actuator in device.actuators.items()},
         "treadmill_m_s": device.treadmill,
         "statures_m": device.statures,
         "ranges": {m: list(pair) for m, pair in device.ranges.items() if m in device.actuators},
         "source": device.source,
         "remarks": device.remarks,
     }
+
+
+def _limits(actuator: Actuator) -> dict[str, float | None]:
+    """Effort, speed and acceleration; None: no limit."""
+    return {name: value if math.isfinite(value) else None for name, value in actuator._asdict().items()}
 
 
 def _movements(joints: tuple[str, ...]) -> str:

@@ -33,7 +33,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--device", default="exo12", metavar="DEVICE", help="name or device file (default: exo12)"
     )
     parser.add_argument(
-        "--acceleration", type=float, metavar="A", help="largest joint acceleration [rad/s^2] (default: 200)"
+        "--acceleration",
+        type=float,
+        metavar="A",
+        help="largest joint acceleration [rad/s^2] (default: the record's, else 200)",
     )
     parser.add_argument(
         "--gap", type=float, default=0.0, metavar="MM", help="distance that parts must keep [mm] (default: 0)"
@@ -45,12 +48,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Assess and print; 0 if the device can do the walk, else 1."""
-    from exo_pin.demand import ACCELERATION_LIMIT
     from exo_pin.errors import DescriptionError
     from exo_pin.feasible import feasible
 
-    acceleration = ACCELERATION_LIMIT if args.acceleration is None else args.acceleration
-    if not (math.isfinite(acceleration) and acceleration > 0 and math.isfinite(args.gap)):
+    acceleration = args.acceleration
+    if not (acceleration is None or 0.0 < acceleration < math.inf) or not math.isfinite(args.gap):
         raise DescriptionError("--acceleration must be positive, --gap a number")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
