@@ -14,6 +14,9 @@ DEFAULT_STATURE = 1.75
 DEFAULT_MASS = 70.0
 """Mass of the default person [kg]."""
 
+MASS_INDEX_RANGE = (8.0, 90.0)
+"""Mass over squared stature [kg/m^2] of anybody: from starving children to the heaviest adults."""
+
 _BODY_MASS_INDEX = DEFAULT_MASS / DEFAULT_STATURE**2
 """Mass over squared stature [kg/m^2] of a person whose mass is unknown: that of the default person."""
 

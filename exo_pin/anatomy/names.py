@@ -28,6 +28,18 @@ PassiveJoints = Literal["held", "released"]
 """Whether joints without a motor are held at zero or move freely."""
 SupportStyle = Literal["carried", "still"]
 """How the balance support moves the pelvis in a picture: with the walk, or not at all."""
+SizeOrigin = Literal[
+    "command line",
+    "body file",
+    "file's header",
+    "joint centres",
+    "markers",
+    "model",
+    "stature table",
+    "mass table",
+    "default",
+]
+"""Where a size of a body comes from; `exo_pin.anatomy.person.Measure.said` has the details."""
 AngleUnit = Literal["deg", "rad"]
 LengthUnit = Literal["mm", "cm", "m"]
 Vertical = Literal["+x", "+y", "+z", "-x", "-y", "-z"]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from exo_pin.anatomy.names import LengthUnit, Sex
 
 if TYPE_CHECKING:
+    from exo_pin.anatomy.person import Person
     from exo_pin.formats import Content, TrialFile
     from exo_pin.markers import Reconstruction
 
@@ -24,6 +26,7 @@ class OpenedFiles:
         self.length_unit: LengthUnit | None = None
         self._files: dict[Path, TrialFile] = {}
         self._walks: dict[tuple[object, ...], Reconstruction] = {}
+        self._person: Person | None = None
 
     def open(self, path: str | Path, content: Content | None = None) -> TrialFile:
         """The content of a file, read at the first call; arguments and errors as of `formats.open_trial`."""
@@ -37,6 +40,12 @@ class OpenedFiles:
                 file.with_length_unit(self.length_unit) if self.length_unit and not beside else file
             )
         return self._files[path]
+
+    def person(self, known: Callable[[], Person]) -> Person:
+        """The person of the command's trial, found out at the first call."""
+        if self._person is None:
+            self._person = known()
+        return self._person
 
     def reconstruct(
         self,

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import HIP_ORDERS, Body
-from exo_pin.anatomy.body import both_sides
 from exo_pin.anatomy.names import SIGN_PRESETS
-from exo_pin.cli import plate_options, show, trials
+from exo_pin.cli import body_options, plate_options, show, trials
 from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
 from exo_pin.gait import SPEEDS
@@ -51,13 +49,22 @@ def gait_from(args: argparse.Namespace, body: Body) -> Gait:
     if args.gait not in SPEEDS and walk.source:
         print(f"read: {show.plain(walk.source)}", file=sys.stderr)
     walk = plate_options.with_plate_events(args, body, walk)
+    if trials.is_file(args):
+        body_options.print_person(args)
     for remark in walk.remarks:
         print(f"note: {show.plain(remark)}", file=sys.stderr)
-    from exo_pin.gait import implausibilities
-
-    for reason in (*implausibilities(walk), *trials.doubts(args)):
+    for reason in _doubts(args, body, walk):
         print(f"warning: {reason}", file=sys.stderr)
     return walk
+
+
+def _doubts(args: argparse.Namespace, body: Body, walk: Gait) -> tuple[str, ...]:
+    """Reasons to doubt a walk of a file."""
+    if not trials.is_file(args):
+        return ()
+    from exo_pin.robot import load_robot
+
+    return plausibility(args, load_robot(body), walk).reasons
 
 
 def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any) -> Gait:
@@ -101,22 +108,8 @@ def plausibility(args: argparse.Namespace, robot: Robot, walk: Gait) -> Plausibi
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:
-    """The body: a file, or a person's measures, or both (measures win)."""
-    group = parser.add_argument_group("body")
-    group.add_argument("--body", metavar="FILE", help="body file, as `exo-pin body` writes it")
-    group.add_argument("--stature", type=float, metavar="M", help="height of the person [m] (default: 1.75)")
-    group.add_argument("--mass", type=float, metavar="KG", help="mass of the person [kg] (default: 70)")
-    group.add_argument("--sex", choices=("male", "female"), help="whose segment masses (default: male)")
-    group.add_argument("--waist-width", type=float, metavar="M", help="inner width of the waist ring [m]")
-    group.add_argument("--hip-width", type=float, metavar="M", help="between the hip joint centres [m]")
-    group.add_argument("--no-wearer", action="store_true", help="the bare device: nobody's mass in it")
-    group.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="any other size, e.g. thigh=0.43 or left_thigh=0.42 (see `exo-pin body`)",
-    )
+    """The options of `body_options`."""
+    body_options.add(parser)
 
 
 def add_hip_order(parser: argparse.ArgumentParser) -> None:
@@ -127,45 +120,8 @@ def add_hip_order(parser: argparse.ArgumentParser) -> None:
 
 
 def body_from(args: argparse.Namespace) -> Body:
-    """The body that the arguments describe.
-
-    Raises:
-        DescriptionError: A measure is not plausible.
-    """
-    scaled = trials.body(args)
-    if scaled is not None:
-        return dataclasses.replace(scaled, wearer=False) if args.no_wearer else scaled
-    measures = {name: getattr(args, name) for name in ("stature", "mass", "sex", "waist_width", "hip_width")}
-    values: dict[str, Any] = {name: value for name, value in measures.items() if value is not None}
-    values |= dict(map(assignment, args.set))
-    if args.no_wearer:
-        values["wearer"] = False
-    if args.body is None:
-        return Body.from_stature(**values)
-    body = Body.load(args.body)
-    grown = {"stature", "mass", "sex"} & set(values)
-    if grown:
-        raise DescriptionError(
-            f"--body holds every size already; --{sorted(grown)[0]} would contradict it (change the file)"
-        )
-    return dataclasses.replace(body, **both_sides(values))
-
-
-def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
-    """`name=value` as a pair; numbers and true/false are read as such.
-
-    Raises:
-        DescriptionError: There is no sign in it.
-    """
-    name, found, value = text.partition(sign)
-    if not found or not name:
-        raise DescriptionError(f"{text!r} is not of the form name{sign}value")
-    if value in ("true", "false"):
-        return name, value == "true"
-    try:
-        return name, float(value)
-    except ValueError:
-        return name, value
+    """The body of the arguments, as `body_options.sized` has it; errors as there."""
+    return body_options.sized(args).body
 
 
 def with_events(robot: Robot, gait: Gait) -> tuple[Gait, str]:

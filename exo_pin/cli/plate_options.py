@@ -41,7 +41,8 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
         FormatError: The file that is named cannot be read, no foot can be found on its plates, or the
             walk is no trial.
     """
-    if not (args.forces or Path(args.gait).suffix.lower() == ".c3d"):
+    own = Path(args.gait).suffix.lower() == ".c3d" and not walk.periodic
+    if not (args.forces or own):
         return walk
     from exo_pin.kinematics import event_differences, with_plates
     from exo_pin.robot import load_robot

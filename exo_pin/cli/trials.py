@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from exo_pin.anatomy.person import Person
 from exo_pin.cli import plate_options
 from exo_pin.cli.opened_files import OpenedFiles
 from exo_pin.errors import DescriptionError, FormatError
+from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
-    from exo_pin.anatomy import Body
     from exo_pin.gait import Gait
     from exo_pin.markers import Reconstruction
 
@@ -137,12 +138,30 @@ def may_hold_markers(path: Path) -> bool:
     return path.suffix.lower() in _MARKER_ENDINGS
 
 
-def body(args: argparse.Namespace) -> Body | None:
-    """The body that the trial was solved on, unless the user measured another."""
-    if _measured(args):
-        return None
-    trial = found(args)
-    return None if trial is None else trial.body
+def person(args: argparse.Namespace) -> Person:
+    """What the trial of the arguments says of its person; nothing where GAIT is no file.
+
+    Raises:
+        FormatError: The trial, its standing trial or the model cannot be read.
+    """
+    return args.files.person(lambda: _person(args)) if is_file(args) else Person()
+
+
+def is_file(args: argparse.Namespace) -> bool:
+    """Whether GAIT is a file, and no normal walk or a word that is neither."""
+    if "files" not in args or not getattr(args, "gait", None):
+        return False
+    path = Path(args.gait)
+    return path.exists() or (bool(path.suffix) and args.gait not in SPEEDS)
+
+
+def _person(args: argparse.Namespace) -> Person:
+    from exo_pin.markers.trial_person import trial_person
+
+    files: OpenedFiles = args.files
+    model = None if args.model is None else Path(args.model)
+    known = trial_person(files.open(args.gait), found(args), model)
+    return known if args.static is None else known.over(files.open(args.static, "markers").person())
 
 
 def gait(args: argparse.Namespace) -> Gait | None:
@@ -182,11 +201,6 @@ def doubts(args: argparse.Namespace) -> tuple[str, ...]:
     )
 
 
-def sized(args: argparse.Namespace) -> bool:
-    """Whether lengths are the person's own: the user gave measures, or the trial's markers did."""
-    return _measured(args) or found(args) is not None
-
-
 def to_json(args: argparse.Namespace) -> dict[str, Any] | None:
     """How well the markers are met, by frame and marker, for JSON; None where GAIT is no trial."""
     trial = found(args)
@@ -201,8 +215,3 @@ def to_json(args: argparse.Namespace) -> dict[str, Any] | None:
         "marker_rms_mm": {name: 1e3 * error for name, error in trial.by_marker().items()},
         "stature_m": trial.body.stature,
     }
-
-
-def _measured(args: argparse.Namespace) -> bool:
-    """Whether the user gave sizes of the body."""
-    return any((args.body, args.stature, args.waist_width, args.hip_width, args.set))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from exo_pin.anatomy.names import LengthUnit, SignPreset
+from exo_pin.anatomy.person import Person
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.gait import Gait
@@ -61,6 +62,17 @@ class TrialFile:
             FormatError: There are no markers, or they are unusable.
         """
         raise FormatError(self.path, "holds no markers")
+
+    def person(self, model: Path | None = None) -> Person:
+        """What the file says of the person's body; nothing for most formats.
+
+        Args:
+            model: The OpenSim model (.osim) that the file belongs to.
+
+        Raises:
+            FormatError: The model cannot be read.
+        """
+        return Person()
 
     def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
         """Joint torques.

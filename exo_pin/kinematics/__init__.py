@@ -8,7 +8,13 @@ from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
 from exo_pin.kinematics.plate_contacts import plate_events, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
-from exo_pin.kinematics.stance_slide import LARGE_SLIDE, StanceSlide, largest_slide, stance_slides
+from exo_pin.kinematics.stance_slide import (
+    LARGE_SLIDE,
+    StanceSlide,
+    largest_slide,
+    slide_doubts,
+    stance_slides,
+)
 from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
 from exo_pin.kinematics.walk_plausibility import plausibility
 
@@ -37,6 +43,7 @@ __all__ = [
     "plate_events",
     "plausibility",
     "poses",
+    "slide_doubts",
     "spatiotemporal",
     "stance_slides",
     "velocities",

@@ -10,9 +10,11 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
+from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.event import flat_times
 from exo_pin.gait.spatiotemporal import ground_velocity
+from exo_pin.kinematics.sole_contact import with_events
 from exo_pin.kinematics.walk_numbers import sole_points
 from exo_pin.robot import Robot
 
@@ -67,6 +69,26 @@ def stance_slides(robot: Robot, gait: Gait) -> tuple[StanceSlide, ...]:
 def largest_slide(robot: Robot, gait: Gait) -> StanceSlide | None:
     """The largest of `stance_slides`, or None where there are none."""
     return max(stance_slides(robot, gait), key=lambda slide: slide.distance, default=None)
+
+
+def slide_doubts(robot: Robot, gait: Gait) -> tuple[str, ...]:
+    """The largest slide of a standing foot in a sentence with its probable cause; none up to `LARGE_SLIDE`.
+
+    Args:
+        robot: With the person's sizes.
+        gait: The walk; events by its kinematics where it has none.
+    """
+    try:
+        found = largest_slide(robot, with_events(robot, gait))
+    except GaitError:
+        return ()
+    if found is None or found.distance <= LARGE_SLIDE:
+        return ()
+    when = f"{found.start:.2f} .. {found.end:.2f} s"
+    return (
+        f"the {found.side} foot slides {1e3 * found.distance:.0f} mm while it stands, {when}, more than "
+        f"{1e3 * LARGE_SLIDE:.0f}: is the body the person's (--stature, --body, --model)?",
+    )
 
 
 def _slides(gait: Gait, side: Side, sole: Array) -> Iterator[StanceSlide]:

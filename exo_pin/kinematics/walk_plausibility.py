@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from exo_pin.gait import Gait, Plausibility, implausibilities
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
-from exo_pin.kinematics.stance_slide import LARGE_SLIDE, largest_slide
+from exo_pin.kinematics.stance_slide import slide_doubts
 from exo_pin.robot import Robot
 
 
@@ -22,19 +22,7 @@ def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plaus
         more: Reasons found elsewhere: how markers are met, how force plates were read.
     """
     found = Plausibility(implausibilities(gait))
-    return found.with_reasons((*_outliers(curve_outliers(gait)), *_slide(robot, gait), *more))
-
-
-def _slide(robot: Robot, gait: Gait) -> tuple[str, ...]:
-    """The largest slide of a standing foot, where it is too large for one that stands."""
-    found = largest_slide(robot, gait)
-    if found is None or found.distance <= LARGE_SLIDE:
-        return ()
-    when = f"{found.start:.2f} .. {found.end:.2f} s"
-    return (
-        f"the {found.side} foot slides {1e3 * found.distance:.0f} mm while it stands, {when}, more than "
-        f"{1e3 * LARGE_SLIDE:.0f}: is the body the person's (--stature, --body)?",
-    )
+    return found.with_reasons((*_outliers(curve_outliers(gait)), *slide_doubts(robot, gait), *more))
 
 
 def _outliers(found: Sequence[CurveOutlier]) -> tuple[str, ...]:

@@ -109,13 +109,13 @@ def _walk(case: Case) -> tuple[Gait, Body]:
     if not case.path:
         body = case.body or Body.from_stature()
         return normative_gait(speed_named(case.gait), leg_length=body.leg_length), body
-    file = open_trial(case.path)
-    if file.needs_inverse_kinematics:
-        from exo_pin.markers import load_walk
+    from exo_pin.markers import load_walk
+    from exo_pin.markers.trial_person import trial_body
 
-        trial = load_walk(file)
-        return trial.gait, case.body or trial.body
-    return load_gait(file, preset=case.preset), case.body or Body.from_stature()
+    file = open_trial(case.path)
+    trial = load_walk(file) if file.needs_inverse_kinematics else None
+    gait = trial.gait if trial else load_gait(file, preset=case.preset)
+    return gait, case.body or trial_body(file, trial).body
 
 
 def _rows(case: Case, gait: Gait, body: Body, conditions: Conditions) -> Iterator[Row]:

@@ -68,7 +68,7 @@ def test_a_childs_measures_stand_in_the_parameters(shared):
         content = read_content(shared / "c3d_pig_walk_HC036A/HC036A10_walk.c3d", (name,))
         number = content.parameters.number
         assert [number(f"PROCESSING:{key}") for key in ("HEIGHT", "LLEGLENGTH")] == [1340, 700]
-        assert content.mass == 33
+        assert number("PROCESSING:BODYMASS") == 33
         assert content.parameters.texts["SUBJECTS:NAMES"] == ("HC036A",)
         assert content.parameters.number("PROCESSING:SHOE_SIZE") is None
 

@@ -81,10 +81,10 @@ def test_plug_in_gaits_moments_give_the_powers_that_it_computed(shared):
     }
     file = open_trial(path)
     assert isinstance(file, C3dFile)
-    content = file.content
+    content, mass = file.content, file.person().mass
     for name, (side, part) in names.items():
         mine = [k for k, joint in enumerate(JOINTS) if joint.startswith(f"{side}_{part.lower()}")]
-        ours, theirs = np.nansum(power[:, mine], axis=1), content.mass * content.output(name)[:, 2]
+        ours, theirs = np.nansum(power[:, mine], axis=1), mass * content.output(name)[:, 2]
         both = np.isfinite(power[:, mine[0]]) & np.isfinite(theirs)
         assert both.sum() > 100
         assert np.corrcoef(ours[both], theirs[both])[0, 1] > SAME

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from exo_pin.anatomy import SIDES
-from exo_pin.cli import options, show, trials, walk_output
+from exo_pin.cli import body_options, options, show, walk_output
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers
     for k, citation in enumerate(found.citations.values(), 1):
         print(f"{k}  {citation}")
     print("-  no published range was checked")
-    if args.gait not in SPEEDS and not trials.sized(args):
+    if args.gait not in SPEEDS and not body_options.sized(args).own_legs:
         print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, walk_output
+from exo_pin.cli import body_options, options, show, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -222,7 +222,7 @@ _STEPS: dict[str, Step] = {
 
 
 def _name_and_number(text: str, option: str) -> tuple[str, float]:
-    name, value = options.assignment(text)
+    name, value = body_options.assignment(text)
     if isinstance(value, bool) or not isinstance(value, float):
         raise DescriptionError(f"{option} {text!r}: expected a number after the =")
     return name, value

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show, trials, walk_output
+from exo_pin.cli import body_options, options, show, trials, walk_output
 
 if TYPE_CHECKING:
+    from exo_pin.anatomy.sized_body import SizedBody
     from exo_pin.arrays import Array
     from exo_pin.demand import RangeDemand
     from exo_pin.gait import Gait, Plausibility
@@ -52,6 +53,7 @@ class _Info:
         numbers: Cycles and spatiotemporal numbers.
         outliers: Samples that stand out of their curve.
         plausibility: The verdict on the walk as it was read.
+        body: The body that walks, with the origin of its sizes.
         markers: How well a marker trial's markers are met, for JSON; None for other files.
     """
 
@@ -63,6 +65,7 @@ class _Info:
     numbers: WalkNumbers
     outliers: tuple[CurveOutlier, ...]
     plausibility: Plausibility
+    body: SizedBody
     markers: dict[str, Any] | None
 
 
@@ -73,9 +76,9 @@ def _found(args: argparse.Namespace) -> _Info:
     from exo_pin.kinematics import curve_outliers, walk_numbers
     from exo_pin.robot import load_robot
 
-    body = options.body_from(args)
-    robot = load_robot(body)
-    gait, note = options.with_events(robot, options.gait_from(args, body))
+    body = body_options.sized(args)
+    robot = load_robot(body.body)
+    gait, note = options.with_events(robot, options.gait_from(args, body.body))
     return _Info(
         gait=gait,
         events_note=note,
@@ -85,6 +88,7 @@ def _found(args: argparse.Namespace) -> _Info:
         numbers=walk_numbers(robot, gait),
         outliers=curve_outliers(gait),
         plausibility=options.plausibility(args, robot, gait),
+        body=body,
         markers=trials.to_json(args),
     )
 
@@ -115,6 +119,7 @@ def _to_json(found: _Info) -> dict[str, Any]:
             for x in found.differences
         ],
         "events_note": found.events_note,
+        "body": body_options.to_json(found.body),
         "markers": found.markers,
         "outliers": walk_output.outliers_to_json(found.outliers),
         "plausibility": found.plausibility.facts(),
@@ -143,6 +148,8 @@ def _print(name: str, found: _Info) -> None:
         print(f"  {event.time:.3f} s  {event.side} {event.kind}  ({event.source})")
     if found.events_note and found.numbers.missing not in found.events_note:
         print(f"  {found.events_note}")
+    title = f"body: {body_options.words(found.body)}"
+    show.table(title, body_options.COLUMNS, body_options.rows(found.body))
     _print_numbers(found)
 
 

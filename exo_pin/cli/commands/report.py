@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, shown_walk, torque_options, trials
+from exo_pin.cli import body_options, options, show, shown_walk, torque_options
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -133,11 +133,4 @@ def _choices(args: argparse.Namespace, note: str) -> dict[str, str]:
 
 def _body(args: argparse.Namespace) -> str:
     """The source of the body's sizes."""
-    names = ("stature", "mass", "sex", "waist_width", "hip_width")
-    measures = [f"{name} {value}" for name in names if (value := getattr(args, name)) is not None]
-    measures += args.set
-    if args.body:
-        return ", ".join([args.body, *measures])
-    if trials.body(args) is not None:
-        return "scaled from the markers" + (f", {', '.join(measures)}" if measures else "")
-    return ", ".join(measures) or "defaults: a man of 1.75 m and 70 kg"
+    return body_options.words(body_options.sized(args))

@@ -10,7 +10,7 @@ from typing import Any, cast
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import HipOrder
 from exo_pin.anatomy.sizes import LEG_SIZES
-from exo_pin.cli import options
+from exo_pin.cli import body_options, options
 from exo_pin.files import write_text
 
 _EXAMPLES = """examples:
@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
     """Make the URDF."""
     from exo_pin import description
 
-    given = dict(options.assignment(text, sign=":=") for text in args.assignments)
+    given = dict(body_options.assignment(text, sign=":=") for text in args.assignments)
     device = str(given.pop("device", "exo12"))
     hip_order = cast(HipOrder, given.pop("hip_order", "clinical"))  # description.urdf refuses other words
     fields = {f.name for f in dataclasses.fields(Body)} | set(LEG_SIZES)
@@ -61,4 +61,4 @@ def _move_to_option(args: argparse.Namespace, name: str) -> None:
     """Make `stature:=1.8` the same as `--stature 1.8`."""
     for text in [t for t in args.set if t.startswith(f"{name}=")]:
         args.set.remove(text)
-        setattr(args, name, options.assignment(text)[1])
+        setattr(args, name, body_options.assignment(text)[1])

@@ -11,17 +11,20 @@ from typing import Literal
 import numpy as np
 
 from exo_pin.anatomy.names import AngleUnit, LengthUnit, SignPreset, Vertical
+from exo_pin.anatomy.person import Person
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats.c3d.content import C3dContent
 from exo_pin.formats.c3d.foot_contacts import foot_events
+from exo_pin.formats.c3d.joint_centres import measured_person
 from exo_pin.formats.c3d.plates import FoundPlates, force_plates
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, joint_moments, model_angles
 from exo_pin.formats.c3d.reader import read_content
 from exo_pin.formats.c3d.recorded import check_recorded
+from exo_pin.formats.c3d.subject_parameters import stated_person
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
-from exo_pin.formats.units import RADIANS_PER, metres_per, radians_per
+from exo_pin.formats.units import LENGTH_UNITS, RADIANS_PER, metres_per, radians_per
 from exo_pin.gait import Gait
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import UP_AXES, ForcePlate, Markers
@@ -73,6 +76,10 @@ class C3dFile(TrialFile):
             raise FormatError(self.path, why)
         return self._trial
 
+    def person(self, model: Path | None = None) -> Person:
+        """The person by the model's joint centres, else by the file's parameters."""
+        return measured_person(self._trial).over(stated_person(self.content.parameters))
+
     def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
         """Plug-in Gait's joint moments; arguments and errors as in `TrialFile.torques`."""
         return joint_moments(self.path, self.content, preset, mass)
@@ -112,6 +119,7 @@ class C3dFile(TrialFile):
                 events=found.events,
                 plates=plates.plates,
                 source=self.path.name,
+                unit=self._unit_word,
                 remarks=(
                     *content.remarks,
                     *self._length_remarks(),
@@ -128,6 +136,12 @@ class C3dFile(TrialFile):
     def _metres(self) -> float | None:
         """Metres per unit of length; None where nothing tells it."""
         return metres_per(self.length_unit or self.content.length_unit or "")
+
+    @property
+    def _unit_word(self) -> str:
+        """The unit of lengths as the user or the file states it, for messages; "" where it is not known."""
+        stated = self.length_unit or self.content.length_unit or ""
+        return next((unit for unit in LENGTH_UNITS if metres_per(unit) == metres_per(stated)), "")
 
     @property
     def _no_length_unit(self) -> str:

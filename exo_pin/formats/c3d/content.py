@@ -82,12 +82,6 @@ class C3dContent:
     analysis: Mapping[str, tuple[float, str]]
     remarks: tuple[str, ...] = ()
 
-    @property
-    def mass(self) -> float | None:
-        """Of the person [kg], or None where the file does not state it."""
-        mass = self.parameters.number("PROCESSING:BODYMASS")
-        return mass if mass is not None and mass > 0 else None
-
     def output(self, name: str) -> Array:
         """`(n, 3)` of one model output, in its own unit; NaN where all three numbers are 0."""
         values = self.points[:, self.columns[name]].T

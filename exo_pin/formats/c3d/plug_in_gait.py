@@ -11,6 +11,7 @@ from exo_pin.anatomy.names import Movement, SignPreset
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.c3d.content import C3dContent
+from exo_pin.formats.c3d.subject_parameters import stated_person
 from exo_pin.formats.sign_presets import PRESETS
 from exo_pin.formats.tables.metadata import Metadata, to_gait
 from exo_pin.formats.tables.torque_table import to_torques
@@ -91,7 +92,7 @@ def joint_moments(path: Path, content: C3dContent, preset: SignPreset | None, ma
     if not set(outputs) & set(content.columns):
         why = f"no joint moments; expected Plug-in Gait's outputs {', '.join(outputs[::4])} ..."
         raise FormatError(path, why)
-    weight = content.mass if mass is None else mass
+    weight = stated_person(content.parameters).mass if mass is None else mass
     if weight is None:
         raise FormatError(path, "its moments are per kg, and neither the file nor an option states the mass")
     tau = np.full((len(content.time), len(JOINTS)), np.nan)

@@ -24,6 +24,7 @@ class Axis(NamedTuple):
         slope: Per unit of the coordinate; of a curve its mean.
         offset: At coordinate 0 [rad or m].
         linear: False where the amount is a curve (a spline) and slope and offset are not the whole truth.
+        curve: Coordinates and amounts at the knots of a curve of one coordinate; empty for other axes.
     """
 
     vector: Vector
@@ -31,6 +32,14 @@ class Axis(NamedTuple):
     slope: float = 1.0
     offset: float = 0.0
     linear: bool = True
+    curve: tuple[tuple[float, float], ...] = ()
+
+    def at(self, value: float) -> float:
+        """The amount at a coordinate's value [rad or m]; between a curve's knots along straight lines."""
+        if not self.curve:
+            return self.slope * value + self.offset if self.coordinate else self.offset
+        knots, amounts = np.transpose(self.curve)
+        return float(np.interp(value, knots, amounts))
 
 
 class Joint(NamedTuple):
@@ -60,6 +69,18 @@ class Joint(NamedTuple):
         return tuple(
             dict.fromkeys(a.coordinate for a in (*self.rotations, *self.translations) if a.coordinate)
         )
+
+    def frame_at(self, defaults: Mapping[str, float]) -> Array:
+        """`(4, 4)` the joint's frame in the parent body, moved, at single values of coordinates [rad, m].
+
+        Unlike `transform` it follows curves; coordinates without a value are at 0.
+        """
+        T = np.eye(4)
+        for axis in self.translations:
+            T[:3, 3] += axis.at(defaults.get(axis.coordinate, 0.0)) * np.array(axis.vector)
+        for axis in self.rotations:
+            T[:3, :3] = T[:3, :3] @ about(axis.vector, axis.at(defaults.get(axis.coordinate, 0.0)))
+        return np.asarray(self.in_parent @ T)
 
     def transform(self, values: Mapping[str, Array]) -> Array:
         """T_parent_child `(n, 4, 4)` for coordinates `(n,)` [rad, m]."""

@@ -49,12 +49,14 @@ class OsimModel(NamedTuple):
         name: Of the model.
         joints: By the body that each carries.
         defaults: Coordinate -> value where a motion does not have it [rad, m].
+        mass: Of all bodies together [kg].
     """
 
     path: Path
     name: str
     joints: dict[str, Joint]
     defaults: dict[str, float]
+    mass: float = 0.0
 
     def moved_by(self, coordinate: str) -> Joint | None:
         """The first joint that a coordinate rotates, or None."""
@@ -102,7 +104,8 @@ def load_model(path: str | Path) -> OsimModel:
         defaults |= dict(own)
     if not joints:
         raise FormatError(path, "an OpenSim model without joints of a known kind")
-    return OsimModel(path, model.get("name", ""), joints, defaults)
+    mass = sum(number_of(path, body.findtext("mass") or "0") for body in model.iter("Body"))
+    return OsimModel(path, model.get("name", ""), joints, defaults, mass)
 
 
 def _joint_elements(model: Element) -> Iterator[tuple[Element, str]]:

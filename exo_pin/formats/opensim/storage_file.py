@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from exo_pin.anatomy.names import SignPreset
+from exo_pin.anatomy.person import Person
 from exo_pin.formats.opensim.coordinates import coordinates_gait, knee_preset
 from exo_pin.formats.opensim.external_forces import force_plates
 from exo_pin.formats.opensim.inverse_dynamics import inverse_dynamics
+from exo_pin.formats.opensim.osim_person import model_person
 from exo_pin.formats.opensim.storage import Storage, read_storage
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
@@ -30,6 +32,10 @@ class StorageFile(TrialFile):
     def gait(self, options: ReadOptions) -> Gait:
         """The walk by its joint coordinates; errors as in `TrialFile.gait`."""
         return coordinates_gait(self.storage, options)
+
+    def person(self, model: Path | None = None) -> Person:
+        """The person by the model's mass and joint centres; errors as in `TrialFile.person`."""
+        return Person() if model is None else model_person(model)
 
     def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
         """Generalised forces of inverse dynamics; arguments and errors as in `TrialFile.torques`."""
