@@ -14,7 +14,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "exo_pin"
 FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
-    {"files"},
+    {"files", "scratch"},
     {"safe", "cache", "examples"},
     {"anatomy"},
     {"devices"},

@@ -6,10 +6,14 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
+from exo_pin import scratch
+from exo_pin.cli import stopping
 from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError
 from exo_pin.version import __version__
 
@@ -44,7 +48,7 @@ _EPILOG = """examples:
   exo-pin walk.mot                     a file alone is replayed
   exo-pin COMMAND --help               options and examples of a command
 
-exit codes: 0 done, 1 the verdict is no, 2 bad input"""
+exit codes: 0 done, 1 the verdict is no, 2 bad input, 128 + n stopped by signal n (Ctrl-C: 130)"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -54,9 +58,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         argv: The words behind `exo-pin`; those of the process if left out.
 
     Returns:
-        The exit code: 0 done, 1 the verdict is no, 2 bad input.
+        The exit code: 0 done, 1 the verdict is no, 2 bad input, 128 + n stopped by signal n.
     """
     words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        with stopping.stoppable():
+            return _answered(words)
+    except KeyboardInterrupt as stop:
+        return stopping.exit_code(stop)
+
+
+def _answered(words: list[str]) -> int:
+    """Run the words; bad input and a verdict become a line on stderr and an exit code."""
     try:
         try:
             return _run(words)
@@ -69,8 +82,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # `exo-pin dh | head -1`: the reader has closed the pipe
         _discard_output()
         return 0
-    except KeyboardInterrupt:
-        return 130
 
 
 def _run(words: list[str]) -> int:
@@ -79,19 +90,23 @@ def _run(words: list[str]) -> int:
         if not Path(words[0]).suffix and not Path(words[0]).exists():
             raise UnknownNameError("command or file", words[0], COMMANDS)
         words.insert(0, "replay")
-    parser = _parser(words)
-    args = parser.parse_args(words, _early(words))
-    if args.command is None:
-        parser.print_help()
-        return 0
-    code: int = _module(args.command).run(args)
-    return code
+    with _early(words) as server:
+        parser = _parser(words)
+        args = parser.parse_args(words, argparse.Namespace(words=words, server=server))
+        if args.command is None:
+            parser.print_help()
+            return 0
+        scratch.sweep()
+        code: int = _module(args.command).run(args)
+        return code
 
 
-def _early(words: list[str]) -> argparse.Namespace:
+def _early(words: list[str]) -> AbstractContextManager[Any]:
     """What runs before the words are parsed, since that imports NumPy: `replay` shows its last picture."""
-    server = import_module("exo_pin.cli.last_picture").serve(words) if words[:1] == ["replay"] else None
-    return argparse.Namespace(words=words, server=server)
+    if words[:1] != ["replay"]:
+        return nullcontext()
+    last_picture = import_module("exo_pin.cli.last_picture")
+    return last_picture.serve(words) or nullcontext()
 
 
 def _discard_output() -> None:

@@ -31,13 +31,35 @@ def serve(words: Sequence[str]) -> Server | None:
     packed = recall(words)
     if packed is None:
         return None
-    from exo_pin import viewer
-
     args, _ = _address().parse_known_args(words)  # cannot fail: these words were parsed before
-    opens = not args.no_open and has_display()
-    server = viewer.serve(host=args.host, port=args.port, open_browser=opens)
+    server = open_server(args)
     server.preview(packed)
     return server
+
+
+def open_server(args: argparse.Namespace) -> Server:
+    """A server by the arguments of `add_address`; its address is printed as soon as its port is open."""
+    from exo_pin import viewer
+
+    opens = not args.no_open and has_display()
+    token = "" if args.no_token else None
+    server = viewer.serve(host=args.host, port=args.port, token=token, open_browser=opens)
+    _print_address(args, server)
+    return server
+
+
+def _print_address(args: argparse.Namespace, server: Server) -> None:
+    """Print where the page is, and warnings about port and host."""
+    if args.port and server.port != args.port:
+        print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
+    if not server.loopback:
+        kept = "nobody is kept out" if args.no_token else "the token in the address alone keeps others out"
+        print(f"warning: {args.host} lets other machines connect, unencrypted; {kept}", file=sys.stderr)
+    elif args.no_token:
+        print("warning: without a token every user of this machine can watch", file=sys.stderr)
+    print(f"{server.url}   Ctrl-C ends it", flush=True)
+    if not has_display():
+        print("no display here: open that address, or write a file with --html walk.html", flush=True)
 
 
 def add_address(parser: argparse.ArgumentParser) -> None:
@@ -47,6 +69,11 @@ def add_address(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--host", default="127.0.0.1", help="address to listen on (default: this machine only)"
+    )
+    parser.add_argument(
+        "--no-token",
+        action="store_true",
+        help="an address without a token: whoever reaches the port can watch",
     )
     parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
 

@@ -21,6 +21,18 @@ def add(parser: argparse.ArgumentParser, *, size: str) -> None:
     parser.add_argument("--size", default=size, metavar="WxH", help=f"pixels (default: {size})")
     parser.add_argument("--quality", default="high", help="high: light and shadows (default), or low")
     parser.add_argument("--curves", action="store_true", help="the whole page with the joint curves")
+    add_timeout(parser)
+
+
+def add_timeout(parser: argparse.ArgumentParser) -> None:
+    """How long the browser may take."""
+    parser.add_argument(
+        "--timeout",
+        type=float,
+        default=60.0,
+        metavar="S",
+        help="longest wait for the browser: its start, the page, each picture (default: 60 s)",
+    )
 
 
 def pixels(text: str) -> tuple[int, int]:

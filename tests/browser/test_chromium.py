@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import asyncio
 import math
+import os
+import signal
 import threading
 import time
 
@@ -51,8 +53,9 @@ def test_what_is_no_browser_is_noticed(monkeypatch):
 def test_a_browser_that_dies_is_noticed_and_leaves_nothing(browser):
     before = set(threading.enumerate())
     with Chromium((300, 200)) as second:
-        folder = second._folder
-        threading.Timer(0.3, second._process.kill).start()
+        folder = second._browser.folder
+        pid = int(os.readlink(folder / "profile" / "SingletonLock").rpartition("-")[2])
+        threading.Timer(0.3, os.kill, (pid, signal.SIGKILL)).start()
         start = time.monotonic()
         with pytest.raises(ExoPinError):
             second.evaluate("new Promise(() => {})")

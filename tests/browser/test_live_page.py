@@ -25,9 +25,11 @@ def test_the_live_page_plays_and_asks_only_its_own_server(browser, server):
     browser.wait(f"exo.clock.time !== {start}")
     assert server.clients == 1
     assert browser.console == []
-    assert set(browser.requests) == {server.url, f"ws://127.0.0.1:{server.port}/live", "data:,"} - (
-        set() if "data:," in browser.requests else {"data:,"}
-    )
+    assert set(browser.requests) == {
+        server.url,
+        f"ws://127.0.0.1:{server.port}/live?token={server.token}",
+        "data:,",
+    } - (set() if "data:," in browser.requests else {"data:,"})
 
 
 def test_the_live_page_has_the_same_forward_kinematics(browser, server, robot, gait, scene):
@@ -87,7 +89,7 @@ def test_a_lost_server_is_said_and_its_return_noticed(browser, scene):
     server.close()
     browser.wait("!document.getElementById('notice').hidden")
     assert "stopped" in browser.evaluate("document.getElementById('notice').textContent")
-    with viewer.serve(scene, port=server.port) as again:
+    with viewer.serve(scene, port=server.port, token=server.token) as again:
         assert again.port == server.port
         browser.wait("document.getElementById('notice').hidden")
         assert browser.evaluate("exo.clock.time") == pytest.approx(0.3)  # the same walk goes on
@@ -97,7 +99,7 @@ def test_a_lost_server_is_said_and_its_return_noticed(browser, scene):
 def test_a_foreign_page_cannot_connect(browser, server, file):
     browser.open("about:blank", until="true")
     tried = browser.evaluate(
-        f"new Promise(done => {{ const s = new WebSocket('ws://127.0.0.1:{server.port}/live');"
+        f"new Promise(done => {{ const s = new WebSocket('ws://127.0.0.1:{server.port}/live?token={server.token}');"
         " s.onopen = () => done('open'); s.onerror = () => done('refused'); })"
     )
     assert tried == "refused"

@@ -50,16 +50,14 @@ def said(process):
     return "".join(lines)
 
 
-def first_messages(port, count):
+def address(text):
+    """The page's address in what was printed."""
+    return next(word for word in text.split() if word.startswith("http://"))
+
+
+def first_messages(url, count):
     async def run():
-        end = time.monotonic() + PATIENCE
-        while True:
-            try:
-                page = await websocket_connect(f"ws://127.0.0.1:{port}/live")
-                break
-            except OSError:
-                assert time.monotonic() < end
-                await asyncio.sleep(0.01)
+        page = await websocket_connect(url.replace("http:", "ws:").replace("/?", "/live?"))
         heard = [await asyncio.wait_for(page.read_message(), PATIENCE) for _ in range(count)]
         page.close()
         await page.read_message()
@@ -80,11 +78,15 @@ def test_last_times_picture_comes_first_and_this_runs_own_replaces_it(tmp_path, 
     older = viewer.bundle(viewer.scene(load_robot(), normative_gait("slow"), wearer=False))
     last_picture.keep(words(*mine), older)
     with replaying(tmp_path, *mine) as process:
-        first, second = first_messages(free_port, 2)
+        url = address(said(process))
+        assert f":{free_port}/?token=" in url
+        first, second = first_messages(url, 2)
         assert first == b"\0" + older
         assert second[1:] != older
-        said(process)
-    assert last_picture.recall(words(*mine)) == second[1:]
+        end = time.monotonic() + PATIENCE
+        while last_picture.recall(words(*mine)) != second[1:]:
+            assert time.monotonic() < end
+            time.sleep(0.01)
 
 
 def test_other_words_and_changed_files_have_no_last_time(tmp_path, monkeypatch):
@@ -122,7 +124,7 @@ def test_a_taken_port_and_an_open_door_are_said_and_nothing_is_left(tmp_path):
             assert process.wait(PATIENCE) == 0
             warnings = process.stderr.read()
     assert f"port {port} is in use" in warnings
-    assert "no password" in warnings
+    assert "lets other machines connect" in warnings
     assert list((tmp_path / "tmp").iterdir()) == []
     assert not [file for file in (tmp_path / "cache").iterdir() if file.name.startswith(".")]
 

@@ -2,10 +2,12 @@ from __future__ import annotations
 
 import base64
 import gzip
+import hashlib
 import json
 import re
 import struct
 from dataclasses import replace
+from html import unescape
 
 import numpy as np
 import pytest
@@ -78,6 +80,20 @@ def test_the_policy_forbids_everything_from_elsewhere(scene):
     assert "default-src &#x27;none&#x27;" in policy
     assert "connect-src &#x27;none&#x27;" in policy
     assert "unsafe-eval" not in policy
+    assert "'unsafe-inline'" not in script_sources(policy)
+
+
+def script_sources(policy):
+    return re.search("script-src ([^;]*);", unescape(policy))[1].split()
+
+
+def test_the_policy_allows_the_two_scripts_of_the_page_and_no_other(scene):
+    text = viewer.html(scene)
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
+    (script,) = re.findall("(?s)<script>(.*?)</script>", text)
+    engine = gzip.decompress(base64.b64decode(PageTemplate.load().engine))
+    hashes = [base64.b64encode(hashlib.sha256(part).digest()) for part in (script.encode(), engine)]
+    assert script_sources(policy) == [f"'sha256-{each.decode()}'" for each in hashes]
 
 
 def test_the_page_names_nothing_to_load(scene):

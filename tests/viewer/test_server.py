@@ -39,21 +39,36 @@ def server(scene):
         yield running
 
 
+def query(server):
+    return f"?token={server.token}" if server.token else ""
+
+
 def get(server, path="/", **headers):
+    """Status, headers and text of a path, requested with the token."""
+    return request_bare(server, path + query(server), **headers)
+
+
+def request_bare(server, path="/", method="GET", **headers):
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)
     try:
-        connection.request("GET", path, headers=headers)
+        connection.request(method, path, headers=headers)
         answer = connection.getresponse()
         return answer.status, dict(answer.getheaders()), answer.read().decode()
     finally:
         connection.close()
 
 
+def live(server):
+    return f"ws://127.0.0.1:{server.port}/live{query(server)}"
+
+
 def talk(server, *messages, wait_for=1, **headers):
     """Open the page's connection, send messages, return what came first."""
 
+    headers = {"Origin": f"http://127.0.0.1:{server.port}"} | headers
+
     async def run():
-        request = HTTPRequest(f"ws://127.0.0.1:{server.port}/live", headers=headers)
+        request = HTTPRequest(live(server), headers=headers)
         socket = await websocket_connect(request)
         received = [await asyncio.wait_for(socket.read_message(), PATIENCE) for _ in range(wait_for)]
         for message in messages:
@@ -79,8 +94,8 @@ def test_the_page_is_served_with_its_own_policy(server):
 
 @pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "localhost.evil.example", ""])
 def test_a_foreign_host_is_refused(server, host):
-    assert get(server, Host=f"{host}:{server.port}")[0] == 404
-    with pytest.raises(HTTPClientError, match="404"):
+    assert get(server, Host=f"{host}:{server.port}")[0] == 403
+    with pytest.raises(HTTPClientError, match="403"):
         talk(server, Host=f"{host}:{server.port}")
 
 
@@ -89,10 +104,12 @@ def test_every_loopback_name_is_answered(server, host):
     assert get(server, Host=f"{host}:{server.port}")[0] == 200
 
 
-@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "null", "http://127.0.0.1:1", "https://127.0.0.1:{port}"]
+)
 def test_a_foreign_origin_gets_no_connection(server, origin):
     with pytest.raises(HTTPClientError, match="403"):
-        talk(server, Origin=origin)
+        talk(server, Origin=origin.format(port=server.port))
 
 
 def test_the_pages_own_origin_gets_the_scene(server, scene):
@@ -136,7 +153,7 @@ def test_forged_messages_are_ignored_and_the_connection_lives_on(server, forged,
 @asynccontextmanager
 async def connected(server):
     """A page's connection that has received the scene."""
-    page = await websocket_connect(f"ws://127.0.0.1:{server.port}/live")
+    page = await websocket_connect(live(server))
     await asyncio.wait_for(page.read_message(), PATIENCE)
     yield page
     page.close()
@@ -231,7 +248,7 @@ def test_only_loopback_is_listened_on_unless_another_host_is_given(server):
     with viewer.serve(host="0.0.0.0", port=0) as open_to_all:
         assert not open_to_all.loopback
         assert open_to_all.url.startswith("http://127.0.0.1:")
-        assert get(open_to_all, Host="evil.example")[0] == 404
+        assert get(open_to_all, Host="evil.example")[0] == 403
         assert get(open_to_all, Host="192.0.2.7:7000")[0] == 200
 
 

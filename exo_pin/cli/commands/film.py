@@ -37,6 +37,7 @@ def run(args: argparse.Namespace) -> int:
         fps=args.fps,
         curves=args.curves,
         quality=args.quality,
+        timeout=args.timeout,
         progress=lambda phases: show.progress(phases, "film"),
     )
     write_bytes(args.output, data)

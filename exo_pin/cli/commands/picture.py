@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from exo_pin.cli import shot_options, shown_walk
+from exo_pin.cli import shot_options, show, shown_walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_bytes
 
@@ -33,14 +33,16 @@ def run(args: argparse.Namespace) -> int:
     if Path(args.output).suffix.lower() != ".png":
         raise DescriptionError(f"{args.output}: a picture ends in .png")
     scene = shown_walk.scene(args, *shown_walk.read(args))
-    data = shots.picture(
-        scene,
-        phase=args.phase,
-        camera=args.camera,
-        size=size,
-        curves=args.curves,
-        quality=args.quality,
-    )
+    with show.busy("picture"):
+        data = shots.picture(
+            scene,
+            phase=args.phase,
+            camera=args.camera,
+            size=size,
+            curves=args.curves,
+            quality=args.quality,
+            timeout=args.timeout,
+        )
     write_bytes(args.output, data)
     print(f"{args.output}: {size[0]} x {size[1]}, {len(data) / 1e3:.0f} kB")
     return 0

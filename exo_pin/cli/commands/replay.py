@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from typing import TYPE_CHECKING
+import threading
 
 from exo_pin.cli import last_picture, shown_walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
-
-if TYPE_CHECKING:
-    from exo_pin.viewer import Server
 
 _EXAMPLES = """examples:
   exo-pin replay                          the normal walk at free speed, in the browser
@@ -52,38 +48,14 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _serve(args: argparse.Namespace) -> int:
-    """Block until Ctrl-C or SIGTERM, then leave nothing behind."""
-    import signal
-    import threading
-
-    for number in (signal.SIGINT, signal.SIGTERM):  # both, also where a shell's `&` has switched Ctrl-C off
-        signal.signal(number, signal.default_int_handler)
+    """Block until a signal, then leave nothing behind."""
     try:
         given = None if args.server else shown_walk.read(args)  # bad input is refused before a browser opens
-        with args.server or _server(args) as server:
+        with args.server or last_picture.open_server(args) as server:
             body, gait = given or shown_walk.read(args)
             scene = shown_walk.scene(args, body, gait)  # the browser opens while this is computed
             last_picture.keep(args.words, server.show(scene))
-            _print_address(args, server)
             threading.Event().wait()
     except KeyboardInterrupt:
         pass
     return 0
-
-
-def _server(args: argparse.Namespace) -> Server:
-    from exo_pin import viewer
-
-    opens = not args.no_open and last_picture.has_display()
-    return viewer.serve(host=args.host, port=args.port, open_browser=opens)
-
-
-def _print_address(args: argparse.Namespace, server: Server) -> None:
-    """Print where the page is, and warnings about port and host."""
-    if args.port and server.port != args.port:
-        print(f"port {args.port} is in use: {server.port} is used instead", file=sys.stderr)
-    if not server.loopback:
-        print(f"warning: {args.host} lets other machines watch; there is no password", file=sys.stderr)
-    print(f"{server.url}   Ctrl-C ends it", flush=True)
-    if not last_picture.has_display():
-        print("no display here: open that address, or write a file with --html walk.html", flush=True)

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import body_options, options, show, shown_walk, torque_options
+from exo_pin.cli import body_options, options, shot_options, show, shown_walk, torque_options
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -57,6 +57,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--still", action="store_true", help="a picture in the player's place on paper (needs Chromium)"
     )
+    shot_options.add_timeout(parser)
     shown_walk.add(parser)
 
 
@@ -107,7 +108,11 @@ def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, byte
     from exo_pin.viewer.film import shots
 
     scene = shown_walk.scene(args, body, gait)
-    still = shots.picture(scene, phase=_STILL_PHASE, size=_STILL_SIZE) if args.still else b""
+    still = (
+        shots.picture(scene, phase=_STILL_PHASE, size=_STILL_SIZE, timeout=args.timeout)
+        if args.still
+        else b""
+    )
     return viewer.html(scene), still
 
 

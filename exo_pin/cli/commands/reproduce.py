@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import argparse
 import io
+import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, trials
-from exo_pin.errors import ExoPinError, FormatError
+from exo_pin.cli import options, shot_options, show, trials
+from exo_pin.errors import DescriptionError, ExoPinError, FormatError
 from exo_pin.files import write_bytes, write_text
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
-    from exo_pin.report import RenderedPictures
+    from exo_pin.report import Document, RenderedPictures
     from exo_pin.robot import Robot
 
 _EXAMPLES = """examples:
@@ -43,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--no-render", action="store_true", help="line drawings instead of the browser's pictures"
     )
     parser.add_argument("--quality", default="high", help="of the browser's pictures: high (default) or low")
+    shot_options.add_timeout(parser)
     trials.add(parser)
     options.add_body(parser)
 
@@ -60,33 +63,49 @@ def run(args: argparse.Namespace) -> int:
     recording = None
     if args.gait is not None:
         recording, _ = options.with_events(robot, options.gait_from(args, body))
-    folder = _folder(args.output)
-    with show.busy("drawing"):
-        document = report.reproduction(
-            robot,
-            gait,
-            recording=recording,
-            recording_name=Path(args.gait or "").name,
-            rendered=_rendered(args, robot, gait),
-            when=moment(),
-        )
+    with _folder(args.output) as folder:
+        with show.busy("drawing"):
+            document = report.reproduction(
+                robot,
+                gait,
+                recording=recording,
+                recording_name=Path(args.gait or "").name,
+                rendered=_rendered(args, robot, gait),
+                when=moment(),
+            )
+        size = _write(document, folder)
+    print(f"{folder / 'reproduction.html'}: {size / 1e6:.1f} MB; reproduction.md and")
+    print(f"{len(document.drawings)} figures are beside it")
+    return 0
+
+
+def _write(document: Document, folder: Path) -> int:
+    """Write the figures and both pages; size of the page in HTML [bytes]."""
+    from exo_pin import report
+
     for drawing in document.drawings:
         write_bytes(folder / drawing.file, drawing.data)
     write_text(folder / "reproduction.md", report.markdown(document))
     page = report.html(document)
     write_text(folder / "reproduction.html", page)
-    print(f"{folder / 'reproduction.html'}: {len(page.encode()) / 1e6:.1f} MB; reproduction.md and")
-    print(f"{len(document.drawings)} figures are beside it")
-    return 0
+    return len(page.encode())
 
 
-def _folder(name: str) -> Path:
+@contextmanager
+def _folder(name: str) -> Iterator[Path]:
+    """The folder to write into; what this run makes of its path is removed if the run fails."""
     folder = Path(name)
+    new = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FormatError(folder, f"cannot be made a folder: {error.strerror}") from error
-    return folder
+    try:
+        yield folder
+    except BaseException:
+        for path in new[-1:]:
+            shutil.rmtree(path, ignore_errors=True)
+        raise
 
 
 def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> RenderedPictures:
@@ -97,13 +116,14 @@ def _rendered(args: argparse.Namespace, robot: Robot, gait: Gait) -> RenderedPic
 
     if args.no_render:
         return RenderedPictures()
-    scene, quality = viewer.scene(robot, gait, title="the walk"), args.quality
+    scene = viewer.scene(robot, gait, title="the walk")
+    chosen = {"quality": args.quality, "timeout": args.timeout}
     phases = [k / _POSES for k in range(_POSES)]
     try:
-        model = shots.picture(scene, size=_MODEL_SIZE, quality=quality)
-        poses = shots.pictures(
-            scene, phases, camera="left", size=_POSE_SIZE, legend=False, quality=args.quality
-        )
+        model = shots.picture(scene, size=_MODEL_SIZE, **chosen)
+        poses = shots.pictures(scene, phases, camera="left", size=_POSE_SIZE, legend=False, **chosen)
+    except DescriptionError:  # an option is wrong
+        raise
     except ExoPinError as error:
         print(f"no rendered pictures: {error}", file=sys.stderr)
         return RenderedPictures()

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import PelvisMotion
-from exo_pin.cli import options, show
+from exo_pin.cli import options, show, stopping
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -96,12 +94,11 @@ def run(args: argparse.Namespace) -> int:
     _check_names(args)
     cases, start = _plan(args), time.perf_counter()
     try:
-        with _stoppable():
-            done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
-    except KeyboardInterrupt:
+        done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
+    except KeyboardInterrupt as stop:
         left = study.part(args.output)
         print(f"stopped; finished rows are in {left}, and the same command continues", file=sys.stderr)
-        return 130
+        return stopping.exit_code(stop)
     page = "" if args.no_page or not done.rows else _write_page(args, done)
     seconds = time.perf_counter() - start
     if args.json:
@@ -109,16 +106,6 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print(args.output, done, page=page, seconds=seconds)
     return (1 if done.rows else 2) if done.failures else 0
-
-
-@contextmanager
-def _stoppable() -> Iterator[None]:
-    """SIGTERM, which schedulers send before they kill, stops a study as Ctrl-C does."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def _check_names(args: argparse.Namespace) -> None:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Callable
-from html import escape
+from html import escape, unescape
 from importlib import resources
 from typing import Any
 
 from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Player, Section, Table, Tiles
 
 _POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+    "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
     "media-src blob:; frame-src 'self'; connect-src 'none'; base-uri 'none'; form-action 'none'"
 )
-"""The page loads nothing from elsewhere. The only scripts are the embedded player's, bound by it too."""
+"""The page loads nothing from elsewhere. The only scripts are the embedded player's, by their hashes."""
+
+_HASH = re.compile(r"'sha256-[A-Za-z0-9+/=]+'")
 
 
 def html(document: Document) -> str:
@@ -28,12 +31,23 @@ def html(document: Document) -> str:
     style = (resources.files("exo_pin.report.document") / "page.css").read_text("utf-8")
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{escape(_POLICY)}">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(_policy(document))}">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<link rel="icon" href="data:,">\n<title>{title}</title>\n<style>{style}</style></head>\n'
         f'<body>\n<h1>{title}</h1>\n<p class="under">{escape(document.subtitle)}</p>\n'
         f"{body}\n</body></html>\n"
     )
+
+
+def _policy(document: Document) -> str:
+    """The page's Content-Security-Policy, which also binds the frames in it: it allows their own scripts."""
+    players = [
+        block for section in document.sections for block in section.blocks if isinstance(block, Player)
+    ]
+    hashes = {
+        found for player in players for found in _HASH.findall(unescape(player.html.partition("<title")[0]))
+    }
+    return _POLICY.format(scripts=" ".join(sorted(hashes)) or "'none'")
 
 
 def _section(section: Section) -> str:

@@ -1,47 +1,20 @@
 """A headless Chromium driven over its DevTools protocol: for pictures, films and tests.
 
-The browser is the system's own; tornado, which meshcat brings, is the only client needed.
+The browser is the system's own, driven over pipes.
 """
 
 from __future__ import annotations
 
 import base64
-import os
-import shutil
-import subprocess
-import tempfile
 import time
 from collections.abc import Sequence
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 from exo_pin.errors import ExoPinError
-from exo_pin.viewer.film.devtools import DevTools
-
-_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-"""Commands under which the browser is known; `EXO_PIN_CHROMIUM` names another."""
-
-_FLAGS = (
-    "--headless=new",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--hide-scrollbars",
-    "--remote-debugging-port=0",
-)
-
-
-def find() -> str | None:
-    """Path of the installed browser, or None."""
-    chosen = os.environ.get("EXO_PIN_CHROMIUM")
-    return next((path for name in (chosen, *_NAMES) if name and (path := shutil.which(name))), None)
+from exo_pin.viewer.film.devtools import BrowserEndedError, DevTools
+from exo_pin.viewer.film.guarded_browser import GuardedBrowser
+from exo_pin.viewer.film.guarded_browser import find as find
 
 
 class Chromium:
@@ -59,24 +32,15 @@ class Chromium:
     def __init__(
         self, size: tuple[int, int] = (1400, 860), *, flags: Sequence[str] = (), timeout: float = 60.0
     ) -> None:
-        command = find()
-        if command is None:
-            raise ExoPinError(
-                f"no Chromium found (looked for {', '.join(_NAMES)}); install it, e.g. "
-                "`apt install chromium`, or name it in EXO_PIN_CHROMIUM"
-            )
         self.timeout = timeout
-        self._tools = DevTools(timeout)
-        self._folder = Path(tempfile.mkdtemp(prefix="exo_pin-chromium-"))
-        root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
-        self._process = subprocess.Popen(
-            [command, *_FLAGS, *root, *flags, f"--user-data-dir={self._folder}", "about:blank"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        self._browser = GuardedBrowser(flags)
+        self._tools = DevTools(self._browser.commands, self._browser.answers, timeout)
         try:
-            self._tools.connect(self._port())
+            self._tools.connect()
             self.resize(*size)
+        except BrowserEndedError:
+            self.close()
+            raise ExoPinError("Chromium ended at once instead of starting") from None
         except BaseException:
             self.close()
             raise
@@ -106,6 +70,17 @@ class Chromium:
         self.call("Page.navigate", url=url)
         self.wait(until)
 
+    def open_page(self, page: str, fragment: str = "") -> None:
+        """Load a page from its text, which nobody else can read.
+
+        Args:
+            page: HTML.
+            fragment: What follows `#` in its address.
+        """
+        file = self._browser.folder / "page.html"
+        file.write_text(page, encoding="utf-8")
+        self.open(f"{file.as_uri()}#{fragment}")
+
     def wait(self, expression: str) -> None:
         """Wait until a JavaScript expression is true in the page.
 
@@ -115,7 +90,9 @@ class Chromium:
         end = time.monotonic() + self.timeout
         while not self.evaluate(f"Boolean({expression})"):
             if time.monotonic() > end:
-                raise ExoPinError(f"the page never reached {expression!r}; console: {self.console}")
+                raise ExoPinError(
+                    f"the page is not ready within {self.timeout:g} s ({expression}); errors: {self.console}"
+                )
             time.sleep(0.02)
 
     def evaluate(self, expression: str) -> Any:
@@ -171,33 +148,5 @@ class Chromium:
         return self._tools.call(method, **params)
 
     def close(self) -> None:
-        """End the browser and remove what it wrote."""
-        if self._tools.closed:
-            return
-        self._process.terminate()
-        try:
-            self._process.wait(5)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        self._tools.close()
-        _remove(self._folder)
-
-    def _port(self) -> int:
-        """The port that the browser chose for DevTools."""
-        file, end = self._folder / "DevToolsActivePort", time.monotonic() + self.timeout
-        while not (file.exists() and file.read_text().count("\n")):
-            if self._process.poll() is not None:
-                raise ExoPinError(f"Chromium ended at once with code {self._process.returncode}")
-            if time.monotonic() > end:
-                raise ExoPinError(f"Chromium did not start within {self.timeout:g} s")
-            time.sleep(0.02)
-        return int(file.read_text().split()[0])
-
-
-def _remove(folder: Path) -> None:
-    for _ in range(50):  # the browser's helpers may still write for a moment
-        shutil.rmtree(folder, ignore_errors=True)
-        if not folder.exists():
-            return
-        time.sleep(0.05)
+        """End the browser and remove what it wrote; may be called twice."""
+        self._browser.close()

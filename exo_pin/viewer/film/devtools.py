@@ -1,23 +1,35 @@
-"""A client of the DevTools protocol, in a thread of its own: callers may have a running event loop."""
+"""A client of the DevTools protocol over two pipes: JSON messages, each with a zero byte at its end.
+
+It has no thread and no event loop: whoever calls it waits, and a signal ends the wait at once.
+"""
 
 from __future__ import annotations
 
-import asyncio
 import json
-import threading
-import urllib.request
-from collections.abc import Callable, Coroutine
-from typing import Any
+import os
+import selectors
+import time
+from collections.abc import Callable
+from typing import IO, Any
 
 from exo_pin.errors import ExoPinError
 
 _Params = dict[str, Any]
 
+_END = b"\0"
+_MOST_BYTES = 1 << 20  # read or written at once
+
+
+class BrowserEndedError(ExoPinError):
+    """The browser has closed its pipe."""
+
 
 class DevTools:
-    """A connection to the first page of a browser.
+    """A connection to the first page of a browser; for one thread at a time.
 
     Args:
+        commands: Pipe that the browser reads.
+        answers: Pipe that the browser writes.
         timeout: Longest wait for an answer [s].
 
     Attributes:
@@ -25,86 +37,93 @@ class DevTools:
         requests: Addresses that the page requested.
     """
 
-    def __init__(self, timeout: float) -> None:
+    def __init__(self, commands: IO[bytes], answers: IO[bytes], timeout: float) -> None:
         self.timeout = timeout
         self.console: list[str] = []
         self.requests: list[str] = []
-        self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
+        self._commands, self._answers = commands, answers
+        self._outgoing, self._incoming = b"", bytearray()
+        self._results: dict[int, _Params] = {}
         self._count = 0
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._loop.run_forever, name="exo_pin devtools", daemon=True)
-        self._thread.start()
+        self._session: _Params = {}
+        for pipe in (commands, answers):
+            os.set_blocking(pipe.fileno(), False)
 
-    @property
-    def closed(self) -> bool:
-        """Whether `close` was called."""
-        return self._loop.is_closed()
+    def connect(self) -> None:
+        """Connect to the browser's page, as soon as it has one.
 
-    def connect(self, port: int) -> None:
-        """Connect to the page of the browser that listens on a local port."""
-        self._run(self._connect(port))
+        Raises:
+            ExoPinError: The browser does not start in time.
+        """
+        end = time.monotonic() + self.timeout
+        while not (pages := self._pages()):
+            if time.monotonic() > end:
+                raise ExoPinError(f"Chromium did not start within {self.timeout:g} s")
+            time.sleep(0.02)
+        attached = self.call("Target.attachToTarget", targetId=pages[0], flatten=True)
+        self._session = {"sessionId": attached["sessionId"]}
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
 
     def call(self, method: str, **params: Any) -> dict[str, Any]:
         """Call one method and wait for its answer.
 
         Raises:
-            ExoPinError: The browser refuses, does not answer in time, or has ended.
+            BrowserEndedError: The browser has ended.
+            ExoPinError: The browser refuses, or does not answer in time.
         """
-        answer: dict[str, Any] = self._run(self._send(method, params))
-        return answer
-
-    def close(self) -> None:
-        """Hang up and end the thread."""
-        self._run(self._hang_up())
-        self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join()
-        self._loop.close()
-
-    def _run(self, work: Coroutine[Any, Any, Any]) -> Any:
-        try:
-            return asyncio.run_coroutine_threadsafe(work, self._loop).result(self.timeout)
-        except TimeoutError:
-            raise ExoPinError(f"Chromium did not answer within {self.timeout:g} s") from None
-
-    async def _connect(self, port: int) -> None:
-        from tornado.websocket import websocket_connect  # meshcat brings tornado
-
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
-            pages = [target for target in json.load(answer) if target["type"] == "page"]
-        self._socket = await websocket_connect(pages[0]["webSocketDebuggerUrl"], max_message_size=1 << 28)
-        self._reader = asyncio.ensure_future(self._read())
-        for domain in ("Page", "Runtime", "Log", "Network"):
-            await self._send(f"{domain}.enable", {})
-
-    async def _send(self, method: str, params: _Params) -> dict[str, Any]:
         self._count += 1
-        number = self._count
-        waiting = self._answers[number] = asyncio.get_running_loop().create_future()
-        await self._socket.write_message(json.dumps({"id": number, "method": method, "params": params}))
-        answer = await waiting
+        number, end = self._count, time.monotonic() + self.timeout
+        message = {"id": number, "method": method, "params": params, **self._session}
+        self._outgoing += json.dumps(message).encode() + _END
+        while number not in self._results:
+            self._exchange(end)
+        answer = self._results.pop(number)
         if "error" in answer:
-            raise ExoPinError(f"{method}: {answer['error'].get('message')}")
+            raise ExoPinError(f"Chromium refuses {method}: {answer['error'].get('message')}")
         result: dict[str, Any] = answer["result"]
         return result
 
-    async def _read(self) -> None:
-        while (text := await self._socket.read_message()) is not None:
-            message = json.loads(text)
-            if "id" in message:
-                if waiting := self._answers.pop(message["id"], None):
-                    waiting.set_result(message)
-            elif note := _NOTES.get(message["method"]):
-                note(self, message["params"])
-        for waiting in self._answers.values():
-            waiting.set_result({"error": {"message": "the browser has ended"}})
-        self._answers.clear()
+    def _pages(self) -> list[str]:
+        targets = self.call("Target.getTargets")["targetInfos"]
+        return [target["targetId"] for target in targets if target["type"] == "page"]
 
-    async def _hang_up(self) -> None:
-        if hasattr(self, "_socket"):
-            self._socket.close()
-            self._reader.cancel()
-            await asyncio.gather(self._reader, return_exceptions=True)
-        await asyncio.sleep(0)
+    def _exchange(self, end: float) -> None:
+        """Wait until a pipe is ready, and write or read what it takes or has."""
+        with selectors.DefaultSelector() as pipes:
+            pipes.register(self._answers, selectors.EVENT_READ)
+            if self._outgoing:
+                pipes.register(self._commands, selectors.EVENT_WRITE)
+            ready = [key.fileobj for key, _ in pipes.select(max(0.0, end - time.monotonic()))]
+        if not ready:
+            raise ExoPinError(f"Chromium did not answer within {self.timeout:g} s")
+        if self._answers in ready:
+            self._read()
+        else:
+            self._write()
+
+    def _write(self) -> None:
+        try:
+            self._outgoing = self._outgoing[os.write(self._commands.fileno(), self._outgoing[:_MOST_BYTES]) :]
+        except BrokenPipeError:
+            raise BrowserEndedError("Chromium has ended") from None
+
+    def _read(self) -> None:
+        data = os.read(self._answers.fileno(), _MOST_BYTES)
+        if not data:
+            raise BrowserEndedError("Chromium has ended")
+        self._incoming += data
+        if _END in data:
+            *messages, rest = self._incoming.split(_END)
+            self._incoming = rest
+            for message in messages:
+                self._take(json.loads(message))
+
+    def _take(self, message: _Params) -> None:
+        if "id" in message:
+            self._results[message["id"]] = message
+        elif note := _NOTES.get(message["method"]):
+            note(self, message["params"])
 
 
 def _note_console(tools: DevTools, params: _Params) -> None:

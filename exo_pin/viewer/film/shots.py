@@ -7,11 +7,10 @@ browser's own recorder. The handles of the feet are left out.
 from __future__ import annotations
 
 import shutil
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.viewer.film.chromium import Chromium
@@ -31,6 +30,11 @@ _QUALITIES: tuple[Quality, ...] = get_args(Quality)
 _SMALLEST, _LARGEST = 16, 8192
 """Side of a picture [px]."""
 
+TIMEOUT = 60.0
+"""Longest wait for the browser [s]: enough for 8192 px a side in software."""
+
+_LONGEST_TIMEOUT = 3600.0  # [s]
+
 _NO_HANDLES = "#handles { display: none !important }"
 _ALONE = """
 header, #side, #controls, #cameras, #show, #notice { display: none !important }
@@ -47,6 +51,7 @@ def picture(
     size: tuple[int, int] = (1920, 1080),
     curves: bool = False,
     quality: Quality = "high",
+    timeout: float = TIMEOUT,
 ) -> bytes:
     """One moment as PNG.
 
@@ -57,14 +62,15 @@ def picture(
         size: Width and height [px].
         curves: The whole page with its curves, not the 3-D picture alone.
         quality: `"high"`: studio light and shadows, seconds to load without a graphics card; `"low"`: plain.
+        timeout: Longest wait for the browser: for its start, for the page, for each picture [s].
 
     Raises:
         DescriptionError: A size or phase is out of range.
         UnknownNameError: There is no such camera or quality.
         ExoPinError: There is no Chromium.
     """
-    (shot,) = pictures(scene, [phase], camera=camera, size=size, curves=curves, quality=quality)
-    return shot
+    look: dict[str, Any] = {"camera": camera, "size": size, "curves": curves, "quality": quality}
+    return pictures(scene, [phase], **look, timeout=timeout)[0]
 
 
 def pictures(
@@ -76,6 +82,7 @@ def pictures(
     curves: bool = False,
     quality: Quality = "high",
     legend: bool = True,
+    timeout: float = TIMEOUT,
 ) -> list[bytes]:
     """Several moments as PNG, by one browser; errors as of `picture`.
 
@@ -87,11 +94,12 @@ def pictures(
         curves: The whole page with its curves, not the 3-D picture alone.
         quality: `"high"`: studio light and shadows; `"low"`: plain.
         legend: Whether to draw the legend of colours.
+        timeout: Longest wait for the browser: for its start, for the page, for each picture [s].
     """
     for phase in phases:
         if not 0 <= phase <= 1:
             raise DescriptionError(f"phase is {phase:g}; 0 .. 1 is accepted")
-    with _page(scene, camera, size, curves, quality) as browser:
+    with _page(scene, camera, size, curves, quality, timeout) as browser:
         browser.evaluate(f"document.getElementById('legend').hidden = {'false' if legend else 'true'}")
         return list(_shots(browser, phases))
 
@@ -105,6 +113,7 @@ def film(
     fps: float = 30.0,
     curves: bool = False,
     quality: Quality = "high",
+    timeout: float = TIMEOUT,
     progress: Callable[[Sequence[float]], Iterable[float]] = lambda phases: phases,
 ) -> bytes:
     """The whole walk, at the scene's playback speed, as the bytes of a GIF, WebM or MP4.
@@ -117,6 +126,7 @@ def film(
         fps: Frames per second.
         curves: The whole page with its curves, not the 3-D picture alone.
         quality: `"high"` or `"low"`.
+        timeout: Longest wait for the browser: for its start, for the page, for each picture [s].
         progress: Wraps the phases that are shown one after the other, e.g. in a progress bar.
 
     Raises:
@@ -132,13 +142,13 @@ def film(
         raise DescriptionError(f"fps is {fps:g}; 1 .. 60 is accepted")
     count = max(2, round(scene.facts.duration / scene.facts.speed * fps))
     phases = progress([k / count for k in range(count)])
-    with _page(scene, camera, size, curves, quality) as browser:
+    with _page(scene, camera, size, curves, quality, timeout) as browser:
         return FILMS[kind](_shots(browser, phases), fps, browser)
 
 
 @contextmanager
 def _page(
-    scene: Scene, camera: CameraName, size: tuple[int, int], curves: bool, quality: Quality
+    scene: Scene, camera: CameraName, size: tuple[int, int], curves: bool, quality: Quality, timeout: float
 ) -> Iterator[Chromium]:
     """The offline page in a browser, standing still."""
     if quality not in _QUALITIES:
@@ -149,10 +159,10 @@ def _page(
         raise DescriptionError(
             f"size is {size[0]}x{size[1]}; {_SMALLEST} .. {_LARGEST} px a side is accepted"
         )
-    with tempfile.TemporaryDirectory(prefix="exo_pin-film-") as folder, Chromium(size) as browser:
-        page = Path(folder) / "walk.html"
-        page.write_text(html(scene), encoding="utf-8")
-        browser.open(f"{page.as_uri()}#quality={quality}")
+    if not 1 <= timeout <= _LONGEST_TIMEOUT:
+        raise DescriptionError(f"timeout is {timeout:g} s; 1 .. {_LONGEST_TIMEOUT:g} is accepted")
+    with Chromium(size, timeout=timeout) as browser:
+        browser.open_page(html(scene), f"quality={quality}")
         if not browser.evaluate("exo.stage !== null"):
             raise ExoPinError("this Chromium shows no 3-D pictures (WebGL is off or missing)")
         browser.evaluate(

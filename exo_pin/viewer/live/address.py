@@ -7,8 +7,12 @@ import errno
 import ipaddress
 import re
 import socket
+from urllib.parse import urlencode
 
 from exo_pin.errors import ExoPinError
+
+_BACKLOG = 4096
+"""So many connections may wait to be accepted; with fewer, a flood delays others by seconds."""
 
 _TRIES = 100
 """So many ports are tried, upwards from the wanted one."""
@@ -27,7 +31,7 @@ def listen(host: str, port: int) -> socket.socket:
     refusal: OSError | None = None
     for number in [port + k for k in range(_TRIES if port else 1) if port + k < 65_536]:
         try:
-            return socket.create_server((str(address[0]), number), family=family, backlog=128)
+            return socket.create_server((str(address[0]), number), family=family, backlog=_BACKLOG)
         except OSError as error:
             refusal = error
             if error.errno == errno.EADDRNOTAVAIL:  # the next port will not help
@@ -35,10 +39,11 @@ def listen(host: str, port: int) -> socket.socket:
     raise ExoPinError(f"cannot listen on {host} from port {port} on: {refusal}; use another host or port")
 
 
-def page_url(host: str, port: int) -> str:
-    """Address of the page for a browser on this machine."""
+def page_url(host: str, port: int, token: str) -> str:
+    """Address of the page for a browser on this machine; an empty token is left out."""
     host = "127.0.0.1" if host in ("0.0.0.0", "::", "") else host
-    return f"http://{f'[{host}]' if ':' in host else host}:{port}/"
+    query = f"?{urlencode({'token': token})}" if token else ""
+    return f"http://{f'[{host}]' if ':' in host else host}:{port}/{query}"
 
 
 def is_allowed(header: str, *, host: str, loopback: bool) -> bool:

@@ -17,6 +17,9 @@ _FARTHEST_TARGET = 5.0
 _POSE_LENGTH = 7
 """Numbers of a pose: x y z [m], quaternion x y z w."""
 
+_LONGEST_MESSAGE = 16_384
+"""Longer messages are not even parsed [characters]; a request of 100 joints has some 2000."""
+
 _LARGEST_ID = 2**31
 
 
@@ -79,6 +82,8 @@ class Reached:
 
 def read(message: str | bytes) -> Mapping[str, Any] | None:
     """The JSON object in a message, or None."""
+    if len(message) > _LONGEST_MESSAGE:
+        return None
     try:
         content = json.loads(message)
     except (ValueError, RecursionError):  # no JSON, or brackets without end

@@ -1,28 +1,33 @@
 """The live viewer: a small web server in a thread of this process, for this machine only.
 
-It serves its own page alone: other Host headers get 404 (DNS rebinding), other Origins no WebSocket, and
-messages that are not understood are ignored. There is no ZMQ port as in meshcat's own server.
+It serves its own page alone, to those who have the token of its address. Requests without it, for other hosts
+(DNS rebinding) and from other origins get 403; messages that are not understood are ignored. There is no
+ZMQ port as in meshcat's own server.
 """
 
 from __future__ import annotations
 
 import asyncio
+import atexit
+import hmac
 import ipaddress
 import json
+import secrets
 import threading
-import webbrowser
-from collections.abc import Callable, Coroutine
+from collections.abc import Coroutine
+from contextlib import ExitStack
 from functools import cached_property
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from exo_pin.viewer.live import messages
 from exo_pin.viewer.live.address import is_allowed, listen, page_url
+from exo_pin.viewer.live.watchers import Watchers
 
 if TYPE_CHECKING:
     import numpy.typing as npt
-    from tornado.httpserver import HTTPServer
 
+    from exo_pin.viewer.live.connections import CappedServer
     from exo_pin.viewer.live.handlers import Live
     from exo_pin.viewer.page.page import PageTemplate
     from exo_pin.viewer.scenes.scene import Scene
@@ -30,19 +35,27 @@ if TYPE_CHECKING:
 _BUNDLE, _POSE = b"\0", b"\1"
 """First byte of a binary message to the page: a packed scene, or one pose."""
 
-_GATHERING = 0.004
-"""A page's requests are gathered for so long [s] before the latest is answered: a flood costs no more."""
+_TOKEN_BYTES = 24
+"""Random bytes of a token: far more than can be tried."""
 
 
 def serve(
-    scene: Scene | None = None, *, host: str = "127.0.0.1", port: int = 7000, open_browser: bool = False
+    scene: Scene | None = None,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 7000,
+    token: str | None = None,
+    open_browser: bool = False,
 ) -> Server:
     """Show a scene at an address of this machine until `close()`.
 
     Args:
         scene: What to show; it can follow later with `Server.show`, so that the server starts at once.
-        host: Address to listen on. Anything but a loopback address lets others in: there is no password.
+        host: Address to listen on. At anything but a loopback address other machines can connect,
+            unencrypted: the token alone keeps them out.
         port: Wanted port; if it is taken, the next free one is used (see `Server.port`). 0: any free port.
+        token: What the page's address must hold; a new random one if left out. Empty: none is needed, and
+            every user of this machine can watch.
         open_browser: Whether to open the system's browser there.
 
     Returns:
@@ -51,11 +64,11 @@ def serve(
     Raises:
         ExoPinError: The host is not an address of this machine, or no port is free.
     """
-    server = Server(host, port)
+    server = Server(host, port, token=token)
     if scene is not None:
         server.show(scene)
     if open_browser:
-        threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()  # may block
+        server.open_browser()
     return server
 
 
@@ -66,29 +79,31 @@ class Server:
         host: Address that it listens on.
         port: Port that it listens on.
         wanted: Port that the caller wanted.
-        url: Where to look.
+        token: What requests must hold; empty: nothing.
+        url: Where to look; it holds the token.
     """
 
-    def __init__(self, host: str = "127.0.0.1", port: int = 7000) -> None:
+    def __init__(self, host: str = "127.0.0.1", port: int = 7000, *, token: str | None = None) -> None:
         self.host, self.wanted = host, port
+        self.token = secrets.token_urlsafe(_TOKEN_BYTES) if token is None else token
         self._bundle = b""
         self._title = "exo_pin"
         self._state: messages.PlaybackState | None = None
-        self._clients: set[Live] = set()
-        self._requests: dict[Live, messages.ReachRequest] = {}
         self._scene: Scene | None = None
-        self._reach: Callable[[messages.ReachRequest], messages.Reached] | None = None
+        self._rendered: tuple[str, str, bytes] | None = None
+        self._ends = ExitStack()
         self._socket = listen(host, port)
         self._address, self.port = self._socket.getsockname()[:2]
         self._loop = asyncio.new_event_loop()
+        self._watchers = Watchers(self._loop)
         self._thread = threading.Thread(target=self._work, name="exo_pin viewer", daemon=True)
         self._thread.start()
-        self._http: HTTPServer = self._run(self._start())
+        self._http: CappedServer = self._run(self._start())
 
     @property
     def url(self) -> str:
         """The page's address."""
-        return page_url(self.host, self.port)
+        return page_url(self.host, self.port, self.token)
 
     @property
     def loopback(self) -> bool:
@@ -98,7 +113,7 @@ class Server:
     @property
     def clients(self) -> int:
         """Number of pages that are looking."""
-        return len(self._clients)
+        return len(self._watchers)
 
     @property
     def state(self) -> dict[str, Any] | None:
@@ -127,12 +142,21 @@ class Server:
         import numpy as np
 
         numbers = np.concatenate([np.asarray(base, "<f4"), np.asarray(q, "<f4")])
-        self._broadcast(_POSE + numbers.tobytes())
+        self._loop.call_soon_threadsafe(self._watchers.send, _POSE + numbers.tobytes())
+
+    def open_browser(self) -> None:
+        """Open the system's browser at the page."""
+        from exo_pin.viewer.live.redirect import opened
+
+        atexit.register(self._ends.close)
+        self._ends.enter_context(opened(self.url))
 
     def close(self) -> None:
         """Stop listening, close all pages' connections and end the thread; may be called twice."""
         if self._loop.is_closed():
             return
+        self._ends.close()
+        atexit.unregister(self._ends.close)
         self._run(self._stop())
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
@@ -146,6 +170,10 @@ class Server:
     ) -> None:
         self.close()
 
+    def knows(self, token: bytes) -> bool:
+        """Whether a request with this token is answered; takes the same time however much of it is right."""
+        return not self.token or hmac.compare_digest(token, self.token.encode())
+
     def allows(self, host: str) -> bool:
         """Whether a request with this Host header is answered."""
         return is_allowed(host, host=self.host, loopback=self.loopback)
@@ -157,51 +185,45 @@ class Server:
     def _run(self, work: Coroutine[Any, Any, Any]) -> Any:
         return asyncio.run_coroutine_threadsafe(work, self._loop).result(10)
 
-    async def _start(self) -> HTTPServer:
-        from tornado.httpserver import HTTPServer
-
+    async def _start(self) -> CappedServer:
+        from exo_pin.viewer.live.connections import CappedServer, FewRecords
         from exo_pin.viewer.live.handlers import application
 
-        http = HTTPServer(application(self), max_header_size=16_384, max_body_size=65_536)
+        records = FewRecords(self._thread.ident)
+        records.install()
+        self._ends.callback(records.remove)
+        http = CappedServer(application(self))
         self._socket.setblocking(False)
         http.add_socket(self._socket)
         return http
 
     async def _stop(self) -> None:
         self._http.stop()
-        for client in list(self._clients):
-            client.close(1001, "the program has stopped")
+        self._watchers.close(1001, "the program has stopped")
         await self._http.close_all_connections()
         await asyncio.sleep(0)
         for task in asyncio.all_tasks() - {asyncio.current_task()}:
             task.cancel()
         await asyncio.sleep(0)
 
-    def _broadcast(self, message: bytes) -> None:
-        self._loop.call_soon_threadsafe(self._send, message)
-
-    def _send(self, message: bytes) -> None:
-        for client in list(self._clients):
-            client.send(message)
-
     def _install(self, packed: bytes, scene: Scene | None) -> None:
-        self._scene, self._reach = scene, None
-        self._requests.clear()
+        self._scene = scene
+        self._watchers.forget_requests()
+        self._watchers.answer = None if scene is None or scene.robot is None else self._first_answer
         self._title = self._title if scene is None else scene.title
         if packed != self._bundle:
             self._bundle, self._state = packed, None
-            self._send(_BUNDLE + packed)
+            self._watchers.send(_BUNDLE + packed)
 
-    def _answer(self, client: Live) -> None:
-        """Answer a page's latest request."""
-        request, scene = self._requests.pop(client, None), self._scene
-        if request is None or scene is None or scene.robot is None:
-            return
-        if self._reach is None:
-            from exo_pin.viewer.live.foot_drag import reach_solver
+    def _first_answer(self, request: messages.ReachRequest) -> messages.Reached:
+        """Answer the first request of a scene, and prepare for others: this imports the solver."""
+        from exo_pin.viewer.live.foot_drag import reach_solver
 
-            self._reach = reach_solver(scene.robot, [joint.name for joint in scene.facts.chains[0].joints])
-        client.send(json.dumps(self._reach(request).to_json()))
+        assert self._scene is not None
+        assert self._scene.robot is not None
+        joints = [joint.name for joint in self._scene.facts.chains[0].joints]
+        self._watchers.answer = reach_solver(self._scene.robot, joints)
+        return self._watchers.answer(request)
 
     @cached_property
     def _template(self) -> PageTemplate:
@@ -213,7 +235,9 @@ class Server:
 
     def opened(self, client: Live) -> None:
         """A page opened its connection: it gets the scene, and the state where another page was."""
-        self._clients.add(client)
+        if not self._watchers.add(client):
+            return
+        self._http.keep(client.stream)
         if self._bundle:
             client.send(_BUNDLE + self._bundle)
         if self._state is not None:
@@ -221,21 +245,36 @@ class Server:
 
     def closed(self, client: Live) -> None:
         """A page closed its connection."""
-        self._clients.discard(client)
-        self._requests.pop(client, None)
+        self._watchers.remove(client)
 
     def received(self, client: Live, message: str | bytes) -> None:
-        """A page sent a message; only a well-formed state or request counts, and of requests the latest."""
+        """A page sent a message; only a well-formed state or request counts, and of requests the latest.
+
+        A state counts from our own page alone: others do not say where they come from.
+        """
         content = messages.read(message)
         if content is None:
             return
-        self._state = messages.playback_state(content) or self._state
+        state = messages.playback_state(content)
+        if state is not None and client.origin is not None:
+            self._state = state
+            self._watchers.reported(client)
         request = None if self._scene is None else messages.reach_request(content, self._scene.facts)
         if request is not None:
-            if client not in self._requests:
-                self._loop.call_later(_GATHERING, self._answer, client)
-            self._requests[client] = request
+            self._watchers.request(client, request)
 
-    def page(self, host: str) -> str:
+    def page(self, host: str) -> bytes:
         """The page, which may connect back to where it came from and nowhere else."""
-        return self._template.page(self._title, connect=f"ws://{host}")
+        if self._rendered is None or self._rendered[:2] != (self._title, host):
+            text = self._template.page(self._title, connect=_back(host))
+            self._rendered = (self._title, host, text.encode())
+        return self._rendered[2]
+
+    def policy(self, host: str) -> str:
+        """The Content-Security-Policy of the page."""
+        return self._template.policy(_back(host))
+
+
+def _back(host: str) -> str:
+    """Where the page may connect to: the host that it came from."""
+    return f"ws://{host}"

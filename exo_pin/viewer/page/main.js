@@ -7,7 +7,7 @@ async function main() {
   document.head.append(engine);
   const player = new Player();
   const live = location.protocol.startsWith("http") && !text("bundle").trim();
-  player.transport = live ? new Live(`ws://${location.host}/live`) : new Embedded(text("bundle"));
+  player.transport = live ? new Live(`ws://${location.host}/live${location.search}`) : new Embedded(text("bundle"));
   await player.transport.start(player);
   document.getElementById("loading").hidden = true;
   player.apply();
