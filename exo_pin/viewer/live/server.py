@@ -94,10 +94,10 @@ class Server:
         self._ends = ExitStack()
         self._socket = listen(host, port)
         self._address, self.port = self._socket.getsockname()[:2]
-        self._loop = asyncio.new_event_loop()
-        self._watchers = Watchers(self._loop)
-        self._thread = threading.Thread(target=self._work, name="exo_pin viewer", daemon=True)
+        begun = threading.Event()
+        self._thread = threading.Thread(target=self._work, args=(begun,), name="exo_pin viewer", daemon=True)
         self._thread.start()
+        begun.wait()
         self._http: CappedServer = self._run(self._start())
 
     @property
@@ -178,8 +178,12 @@ class Server:
         """Whether a request with this Host header is answered."""
         return is_allowed(host, host=self.host, loopback=self.loopback)
 
-    def _work(self) -> None:
+    def _work(self, begun: threading.Event) -> None:
+        """Make the loop and run it; a signal, which the main thread gets, finds it whole or not at all."""
+        self._loop = asyncio.new_event_loop()
+        self._watchers = Watchers(self._loop)
         asyncio.set_event_loop(self._loop)
+        begun.set()
         self._loop.run_forever()
 
     def _run(self, work: Coroutine[Any, Any, Any]) -> Any:
