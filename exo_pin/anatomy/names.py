@@ -19,6 +19,8 @@ EventKind = Literal["heel_strike", "toe_off"]
 """Initial contact of a foot, or the moment it leaves the ground."""
 PlausibilityWord = Literal["plausible", "doubtful"]
 """The verdict on a walk as it was read."""
+Manner = Literal["walk", "run"]
+"""Whether a foot always stands, or both are in the air between two contacts."""
 Sex = Literal["male", "female"]
 Speed = Literal["very_slow", "slow", "free", "fast", "very_fast"]
 """A speed of the normal walk (Schwartz 2008)."""

@@ -89,7 +89,7 @@ def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     name = Path(args.gait).name
     found = _recovered(robot, gait, name) if args.device == "exo12" else _on_device(args, body, gait)
     chosen = _scene_options(
-        args, body, name + found.title, [gait.source, note, *_judged(verdict), *found.notes]
+        args, body, name + found.title, [gait.source, note, *_judged(robot, gait, verdict), *found.notes]
     )
     return viewer.exoskeleton_scene(found.robot, found.gait, chosen, reference=gait, torques=torques)
 
@@ -119,13 +119,17 @@ def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         f"{position:.2f} mm and {rotation:.1f} deg at most "
         f"({walk.samples_missed} of {len(gait)} samples missed)"
     )
-    notes = [gait.source, note, *_judged(verdict)]
+    notes = [gait.source, note, *_judged(person, gait, verdict)]
     return viewer.robot_scene(walk, _scene_options(args, body, f"{Path(args.gait).name} on {title}", notes))
 
 
-def _judged(verdict: Plausibility) -> list[str]:
-    """The verdict on the walk as it was read, as notes of the page."""
-    return [f"The walk is {verdict.word}{':' * bool(verdict.reasons)}", *verdict.reasons]
+def _judged(robot: Robot, gait: Gait, verdict: Plausibility) -> list[str]:
+    """Whether it is a run, and the verdict on the walk as it was read, as notes of the page."""
+    from exo_pin.kinematics import walk_numbers
+
+    words = walk_output.manner_words(walk_numbers(robot, gait))
+    run = [words[0].upper() + words[1:] + "."] if words else []
+    return [*run, f"The walk is {verdict.word}{':' * bool(verdict.reasons)}", *verdict.reasons]
 
 
 def _scene_options(args: argparse.Namespace, body: Body, title: str, notes: list[str]) -> SceneOptions:

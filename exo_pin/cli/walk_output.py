@@ -16,6 +16,7 @@ _OUTLIERS_PRINTED = 6  # JSON holds all
 def numbers_to_json(gait: Gait, found: WalkNumbers) -> dict[str, Any]:
     """Cycles by side, spans left out and why, the spatiotemporal numbers; or why they are missing."""
     return {
+        "manner": found.manner,
         "events_by": event_sources(gait),
         "cycles": found.cycles,
         "left_out": [
@@ -24,6 +25,7 @@ def numbers_to_json(gait: Gait, found: WalkNumbers) -> dict[str, Any]:
         "spatiotemporal": {name: _number_to_json(name, found) for name in found.numbers},
         "sources": found.citations,
         "no_cycles": found.missing,
+        "unknown": found.unknown,
     }
 
 
@@ -58,6 +60,13 @@ def print_left_out(found: WalkNumbers) -> None:
     """Spans between heel strikes that are no strides, and why."""
     for x in found.left_out:
         print(f"left out: {x.side} {x.start:.2f} .. {x.end:.2f} s: {x.why}")
+
+
+def manner_words(found: WalkNumbers) -> str:
+    """That it is a run, and what is left out of it; empty for a walk."""
+    if found.manner == "walk":
+        return ""
+    return "; ".join(filter(None, ("a run: both feet are in the air between contacts", found.unknown)))
 
 
 def print_plausibility(found: Plausibility) -> None:

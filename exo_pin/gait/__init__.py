@@ -4,6 +4,7 @@ from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
+from exo_pin.gait.manner import manner
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd, speed_named
 from exo_pin.gait.plausibility import Plausibility, implausibilities
 from exo_pin.gait.published_ranges import Norm, against_normal, normal
@@ -29,6 +30,7 @@ __all__ = [
     "cycles",
     "implausibilities",
     "leg_cycles",
+    "manner",
     "normal",
     "normative_gait",
     "normative_sd",

@@ -69,10 +69,12 @@ def slopes(time: Array, values: Array, half: float) -> tuple[Array, Array]:
     grid = np.linspace(time[0], time[-1], max(m, 2))
     step = grid[1] - grid[0]
     even = np.stack([np.interp(grid, time, y) for y in values.T], axis=1)
+    ends = np.gradient(even, step, axis=0)
     n = max(round(half / step), 1)
+    if len(grid) < 2 * n + 1:
+        return grid, ends
     lags = np.arange(-n, n + 1)
     inner = np.stack([np.convolve(y, -lags, "same") for y in even.T], axis=1) / (step * (lags @ lags))
-    ends = np.gradient(even, step, axis=0)
     inner[:n], inner[-n:] = ends[:n], ends[-n:]
     return grid, inner
 

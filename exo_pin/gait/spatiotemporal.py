@@ -64,10 +64,11 @@ def spatiotemporal(
         until: What begins later is not counted: the end of the first round of a walk that repeats [s].
 
     Returns:
-        `cadence`, `speed`, `stride_time`, `stride_length`, `step_width`, `double_support`, and by side, as
-        `left_stance`: `step_length`, `step_time`, `stance`, `swing`; `step_length_symmetry` and the like are
-        2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal sides, of the means, with the standard
-        deviation of the single cycles' index. What is unknown is left out.
+        `cadence`, `speed`, `stride_time`, `stride_length`, `step_width`, `double_support` (of a run:
+        `flight`), and by side, as `left_stance`: `step_length`, `step_time`, `stance`, `swing`;
+        `step_length_symmetry` and the like are 2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal
+        sides, of the means, with the standard deviation of the single cycles' index. What is unknown is left
+        out.
 
     Raises:
         GaitError: No foot with two heel strikes, or unusable arrays.
@@ -182,7 +183,7 @@ def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) ->
 
 
 def _phases(walk: _Walk, spans: Sequence[Stride]) -> dict[str, Measure]:
-    """Stance, swing and double support in per cent of the stride."""
+    """Stance, swing and double support, or a run's flight, in per cent of the stride."""
     shares: dict[str, list[float]] = {}
     for side, a, b, _ in spans:
         offs = between(walk.times("toe_off", side), a, b)
@@ -194,10 +195,21 @@ def _phases(walk: _Walk, spans: Sequence[Stride]) -> dict[str, Measure]:
         other = SIDES[1 - SIDES.index(side)]
         ends = between(walk.times("toe_off", other), a, offs[0])
         starts = between(walk.times("heel_strike", other), a, offs[0])
+        flight = _flight(walk, other, a, offs[0], b)
+        if flight is not None:
+            shares.setdefault("flight", []).append(100 * flight / (b - a))
         if len(ends) == len(starts) == 1:
             both = (ends[0] - a) + (offs[0] - starts[0])
             shares.setdefault("double_support", []).append(100 * both / (b - a))
     return {name: ("%", values) for name, values in shares.items()}
+
+
+def _flight(walk: _Walk, other: Side, a: float, off: float, b: float) -> float | None:
+    """How long both feet are in the air in a stride from a to b whose foot leaves at `off` [s]; None: not."""
+    strikes, offs = (between(walk.times(kind, other), off, b) for kind in ("heel_strike", "toe_off"))
+    if not (len(strikes) == len(offs) == 1 and strikes[0] < offs[0]):
+        return None
+    return (strikes[0] - off) + (b - offs[0])
 
 
 def _symmetry(values: Mapping[str, Array]) -> dict[str, Number]:

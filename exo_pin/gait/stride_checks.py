@@ -35,6 +35,9 @@ _QUICKEST_STRIDE = 0.4
 _EARLY_TOE_OFF = 0.2
 """The other foot may leave the ground this part of the stride before this one strikes: Zeni's method errs."""
 
+LONGEST_FLIGHT = 0.45
+"""The same in runs: a sprinter flies for 0.25 of the stride."""
+
 
 class Feet(NamedTuple):
     """Both feet, left and right, and the pelvis over the ground, z up.
@@ -77,7 +80,9 @@ class CandidateStride(NamedTuple):
     why: str
 
 
-def candidate_strides(feet: Feet, first: Array, events: list[Event], side: Side) -> list[CandidateStride]:
+def candidate_strides(
+    feet: Feet, first: Array, events: list[Event], side: Side, *, early: float = _EARLY_TOE_OFF
+) -> list[CandidateStride]:
     """Every span between two strikes of a foot, with the objection to it.
 
     Args:
@@ -85,6 +90,7 @@ def candidate_strides(feet: Feet, first: Array, events: list[Event], side: Side)
         first: `(n, 2, 3)` the part of each foot that lands first, heel or toe [m].
         events: Heel strikes and toe-offs of both feet, sorted by time.
         side: Whose strides.
+        early: The other foot may leave the ground this part of the stride before this one strikes.
     """
     mine: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}
     other: dict[str, list[float]] = {kind: [] for kind in EVENT_KINDS}
@@ -94,7 +100,7 @@ def candidate_strides(feet: Feet, first: Array, events: list[Event], side: Side)
     for a, b in pairwise(mine["heel_strike"]):
         offs = between(mine["toe_off"], a, b)
         why = "heel strikes and toe-offs of one foot do not take turns" if len(offs) != 1 else ""
-        why = why or _order_objection(other, a, b)
+        why = why or _order_objection(other, a, b, early)
         why = why or _path_objection(feet, first, SIDES.index(side), (a, offs[0], b))
         found.append(CandidateStride(side, a, offs[0] if offs else a, b, why))
     return found
@@ -116,7 +122,7 @@ def consistent(candidates: list[CandidateStride]) -> list[CandidateStride]:
     return [stride if stride.why else stride._replace(why=partner(stride)) for stride in candidates]
 
 
-def _order_objection(other: Mapping[str, Sequence[float]], a: float, b: float) -> str:
+def _order_objection(other: Mapping[str, Sequence[float]], a: float, b: float, early: float) -> str:
     """The objection to a stride from a to b [s] in the events of the other foot."""
     if b - a < _QUICKEST_STRIDE:
         return f"the feet swing to and fro in less than {_QUICKEST_STRIDE:g} s: noise?"
@@ -125,7 +131,7 @@ def _order_objection(other: Mapping[str, Sequence[float]], a: float, b: float) -
         return "the left and the right foot do not take turns"
     if not _LEAST_STEP < (strikes[0] - a) / (b - a) < 1 - _LEAST_STEP:
         return "both feet move forward together; in a walk they take turns"
-    if not between(other["toe_off"], a - _EARLY_TOE_OFF * (b - a), strikes[0]):
+    if not between(other["toe_off"], a - early * (b - a), strikes[0]):
         return "one foot does not leave the ground while the other one stands"
     return ""
 

@@ -14,34 +14,53 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import SAME_TIME, Event
 from exo_pin.gait.foot_velocity import at_largest_fall
-from exo_pin.gait.stride_checks import CandidateStride, Feet, candidate_strides, consistent, strike_in_the_air
+from exo_pin.gait.running_method import Runner, looks_like_a_run, running_events
+from exo_pin.gait.stride_checks import (
+    LONGEST_FLIGHT,
+    CandidateStride,
+    Feet,
+    candidate_strides,
+    consistent,
+    strike_in_the_air,
+)
 from exo_pin.gait.zeni_method import ZENI, candidates, check_apart, check_turns
 
 _MARGIN = 1.5
 """Events of an incomplete stride belong to the walk if they lie within this many strides of its ends."""
 
 
-def walking_events(feet: Feet, *, periodic: bool = False, heights: bool = True) -> tuple[Event, ...]:
-    """Heel strikes and toe-offs of the parts of a motion that are a walk, forward or backward.
+def walking_events(
+    feet: Feet,
+    *,
+    periodic: bool = False,
+    heights: bool = True,
+    runner: Runner | None = None,
+) -> tuple[Event, ...]:
+    """Heel strikes and toe-offs of the parts of a motion that are a walk, forward or backward, or a run.
 
     The extremes of the feet's motion (`exo_pin.gait.zeni`) are checked stride by stride, then heel strikes
     are moved to where the foot falls fastest (`exo_pin.gait.foot_velocity`). In a walk left and
     right take turns; a foot strikes near the ground, is lower in stance than in swing, and advances over the
     ground. Other motion (squats, standing up, marching or stepping on the spot) gives no event. In a walk
     backwards the toe lands first and the heel leaves last: there `heel_strike` is the first and `toe_off` the
-    last contact, and the source of the events names it.
+    last contact, and the source of the events names it. A run (`exo_pin.gait.running_method`) has events by
+    methods made for running.
 
     Args:
         feet: The motion.
         periodic: The samples are one or more cycles [0, T) of a walk that repeats.
         heights: The pelvis's vertical motion was recorded, so that heights over the ground are known: then
             heel strikes of a walk forward are refined by the foot's velocity.
+        runner: What a run is recognised by; None: it is not.
 
     Raises:
         GaitError: Nothing in it is a walk; the message gives the most frequent objection.
     """
     if periodic:
-        return _repeated(feet, heights)
+        return _repeated(feet, heights, runner)
+    run = () if runner is None else _run(runner)
+    if run:
+        return run
     found = []
     for backwards in (False, True):
         try:
@@ -58,16 +77,47 @@ def walking_events(feet: Feet, *, periodic: bool = False, heights: bool = True) 
     return tuple(at_largest_fall(feet.time, centre, best[0]))
 
 
-def _repeated(feet: Feet, heights: bool) -> tuple[Event, ...]:
+def _run(runner: Runner) -> tuple[Event, ...]:
+    """Events of a run; none where the motion is no run, or none of its strides counts."""
+    feet = runner.feet
+    try:
+        known = candidates(feet.time, feet.ahead(feet.heel), feet.ahead(feet.toe))
+        check_apart(feet.ahead(feet.heel))
+    except GaitError:
+        return ()
+    events = running_events(runner, known)
+    if not looks_like_a_run(runner, events, known):
+        return ()
+    if runner.height is None:  # how high the feet are is not known: no stride is refused for it
+        level = np.array([1.0, 1.0, 0.0])
+        feet = feet._replace(heel=feet.heel * level, toe=feet.toe * level)
+    each = [candidate_strides(feet, feet.heel, events, side, early=LONGEST_FLIGHT) for side in SIDES]
+    strides = consistent([stride for of in each for stride in of])
+    good = [stride for stride in strides if not stride.why]
+    if strides:
+        return _kept(events, strides, good) if good else ()
+    return tuple(events)
+
+
+def _repeated(feet: Feet, heights: bool, runner: Runner | None) -> tuple[Event, ...]:
     """Events of a walk that repeats: the middle one of three rounds."""
     n = len(feet.time)
     period = feet.time[-1] * n / (n - 1)
-    time = period / n * np.arange(3 * n)
-    thrice = Feet(time, *(np.concatenate([x] * 3) for x in feet[1:]))
-    middle = [e for e in walking_events(thrice, heights=heights) if period <= e.time + SAME_TIME < 2 * period]
+    if runner is not None:
+        height = None if runner.height is None else np.tile(runner.height, 3)
+        runner = Runner(_thrice(runner.feet, period), np.tile(runner.knee, (3, 1)), height)
+    found = walking_events(_thrice(feet, period), heights=heights, runner=runner)
+    middle = [e for e in found if period <= e.time + SAME_TIME < 2 * period]
     events = [dataclasses.replace(e, time=max(e.time - period, 0.0)) for e in middle]
     check_turns(events, periodic=True)
     return tuple(events)
+
+
+def _thrice(feet: Feet, period: float) -> Feet:
+    """Three rounds of a motion that repeats with that period [s]."""
+    n = len(feet.time)
+    time = np.asarray(period / n * np.arange(3 * n), dtype=np.float64)
+    return Feet(time, *(np.concatenate([x] * 3) for x in feet[1:]))
 
 
 def _one_way(feet: Feet, backwards: bool) -> tuple[tuple[Event, ...], int, str]:

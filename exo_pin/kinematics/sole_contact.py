@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.heading import headings
+from exo_pin.gait.running_method import Runner
 from exo_pin.gait.stride_checks import Feet
 from exo_pin.gait.strides import strides, turns_of
 from exo_pin.gait.walking_bouts import walking_events
@@ -22,6 +23,8 @@ from exo_pin.robot import Robot
 _TOUCH_HEIGHT = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
+
+_KNEES = [JOINTS.index(f"{side}_knee_flexion") for side in SIDES]
 
 _HELD = 1e-3
 """A pelvis that moves up and down by less than this [m] was held: that of a walker does by 20 to 50 mm."""
@@ -73,7 +76,9 @@ def contacts(
 
 
 def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
-    """Heel strikes and toe-offs of a gait from its kinematics (Zeni 2008, strikes after O'Connor 2007).
+    """Heel strikes and toe-offs of a gait from its kinematics.
+
+    Of a walk by Zeni 2008, strikes refined by O'Connor 2007; of a run by Handsaker 2016 and Fellin 2010.
 
     Heel and ball of each foot are measured forward of the pelvis, along its horizontal heading: that serves
     on the treadmill and over ground, in any direction of the walk. Parts that are no walk give no events;
@@ -87,13 +92,17 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
     heading = headings(T[:, 0])
     soles = T[:, 1:, :3, 3].reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball of each foot
+    height = _recorded_height(gait)
+    upright = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
+    runner = Runner(upright, gait.q[:, _KNEES], height)
     if gait.base is None:
         # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
         along = soles - T[:, None, None, 0, :3, 3]
-        soles[..., 2] = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
+        shorter = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
+        soles = np.concatenate([soles[..., :2], shorter[..., None]], axis=-1)
     feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
     try:
-        found = walking_events(feet, periodic=gait.periodic, heights=_moves_up_and_down(gait))
+        found = walking_events(feet, periodic=gait.periodic, heights=height is not None, runner=runner)
     except GaitError as error:
         turn = abs(float(turns_of(gait, gait.time[[0, -1]])[0]))
         hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > _LARGE_TURN else ""
@@ -102,9 +111,11 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     return found
 
 
-def _moves_up_and_down(gait: Gait) -> bool:
-    """Whether the pelvis's vertical motion was recorded: one that is held at a height says nothing."""
-    return gait.base is not None and float(np.ptp(gait.base[:, 2, 3])) > _HELD
+def _recorded_height(gait: Gait) -> Array | None:
+    """`(n,)` height of the pelvis [m], or None where it was not recorded: held, it says nothing."""
+    if gait.base is None or float(np.ptp(gait.base[:, 2, 3])) <= _HELD:
+        return None
+    return np.asarray(gait.base[:, 2, 3])
 
 
 def with_events(robot: Robot, gait: Gait) -> Gait:

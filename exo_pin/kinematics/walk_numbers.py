@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import Manner, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait, Norm, Number, Stride, against_normal, normal, strides
+from exo_pin.gait import Gait, Norm, Number, Stride, against_normal, manner, normal, strides
+from exo_pin.gait.manner import contacts_are_measured
 from exo_pin.gait.published_ranges import CITATIONS
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import unrolled
@@ -31,6 +32,8 @@ class WalkNumbers:
         usual: The usual range of a number, by name.
         verdicts: `within`, `below` or `above` the usual range, by name.
         missing: Why there are no numbers; empty where there are.
+        manner: Walk or run.
+        unknown: Which numbers are left out, and why; empty where none is.
     """
 
     strides: tuple[Stride, ...] = ()
@@ -38,6 +41,8 @@ class WalkNumbers:
     usual: Mapping[str, Norm] = field(default_factory=dict)
     verdicts: Mapping[str, str] = field(default_factory=dict)
     missing: str = ""
+    manner: Manner = "walk"
+    unknown: str = ""
 
     @property
     def cycles(self) -> dict[Side, int]:
@@ -58,6 +63,15 @@ class WalkNumbers:
         return {key: text for key, text in CITATIONS.items() if key in used}
 
 
+_UNKNOWN = (
+    "stance, swing and flight of a run are left out: kinematics find its contacts within some 20 ms "
+    "(Handsaker 2016, Fellin 2010), a tenth of a stance; force plates measure them (--forces)"
+)
+
+_OF_CONTACT = ("stance", "swing", "stance_symmetry", "double_support", "flight")
+"""Ends of the names of numbers that need to know how long a foot stands."""
+
+
 def walk_numbers(robot: Robot, gait: Gait) -> WalkNumbers:
     """The numbers of a walk; lengths are those of this robot's legs.
 
@@ -68,6 +82,13 @@ def walk_numbers(robot: Robot, gait: Gait) -> WalkNumbers:
     except GaitError as error:
         return WalkNumbers(missing=str(error))
     leg_length = robot.body.leg_length if robot.body else math.nan
+    if manner(gait) == "run":  # the published ranges are those of walks
+        return WalkNumbers(
+            strides=tuple(x for side in SIDES for x in strides(gait, side)),
+            numbers=numbers,
+            manner="run",
+            unknown="" if contacts_are_measured(gait) else _UNKNOWN,
+        )
     return WalkNumbers(
         strides=tuple(x for side in SIDES for x in strides(gait, side)),
         numbers=numbers,
@@ -81,12 +102,20 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
 
     Events are the gait's own, or those of its kinematics. Lengths are those of this robot's legs.
 
-    Pauses, turns and other spans that are no strides (`exo_pin.gait.strides`) are left out.
+    Pauses, turns and other spans that are no strides (`exo_pin.gait.strides`) are left out, and of a run
+    whose contacts come from kinematics alone what needs them: stance, swing, flight.
 
     Raises:
         GaitError: There are no gait cycles.
     """
     gait = with_events(robot, gait)
+    numbers = _all_numbers(robot, gait)
+    if manner(gait) == "run" and not contacts_are_measured(gait):
+        return {name: x for name, x in numbers.items() if not name.endswith(_OF_CONTACT)}
+    return numbers
+
+
+def _all_numbers(robot: Robot, gait: Gait) -> dict[str, Number]:
     walk = unrolled(gait)
     spans = [span for side in SIDES for span in strides(walk, side)]
     counted = [span for span in spans if not span.why]

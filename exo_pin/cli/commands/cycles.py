@@ -81,9 +81,12 @@ def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers
     title = f"{args.gait}: {walk_output.count(cut)}"
     columns = ["number", "mean", "sd", "n", "usual", "this", "source"]
     show.table(title, columns, [_row(name, found) for name in found.numbers])
+    if words := walk_output.manner_words(found):
+        print(words)
     for k, citation in enumerate(found.citations.values(), 1):
         print(f"{k}  {citation}")
-    print("-  no published range was checked")
+    of_walks = found.manner == "walk"
+    print(f"-  {'no published range was checked' if of_walks else 'published ranges are those of walks'}")
     if args.gait not in SPEEDS and not body_options.sized(args).own_legs:
         print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
     if cut.outliers:

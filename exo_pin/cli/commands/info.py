@@ -162,6 +162,8 @@ def _print_numbers(found: _Info) -> None:
         counts = ", ".join(f"{n} {side}" for side, n in numbers.cycles.items())
         speed, cadence = (numbers.numbers[name].mean for name in ("speed", "cadence"))
         print(f"cycles: {counts}; {speed:.2f} m/s, {cadence:.0f} steps/min (exo-pin cycles)")
+    if words := walk_output.manner_words(numbers):
+        print(words)
     walk_output.print_left_out(numbers)
     walk_output.print_outliers(found.outliers)
     walk_output.print_plausibility(found.plausibility)

@@ -82,10 +82,12 @@ def numbers(robot: Robot, gait: Gait) -> Section:
         rows.append([*row, found.verdicts.get(name, "-")])
     columns = ("number", "mean", "sd", "n", "unit", "usual", "this walk")
     cited = "; ".join(f"{key}: {text}" for key, text in sorted(found.citations.items()))
+    run = f"A run: both feet are in the air between contacts. {found.unknown}".strip()
+    manner = [Paragraph(run, "note")] if found.manner == "run" else []
     note = f"Lengths are those of this body's legs. Usual ranges: {cited or 'none'}."
     left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in found.left_out)
     gone = [Paragraph(f"Left out: {'; '.join(left)}.", "note")] if found.left_out else []
-    return Section(title, (Table(columns, rows), *gone, Paragraph(note, "note")))
+    return Section(title, (Table(columns, rows), *manner, *gone, Paragraph(note, "note")))
 
 
 def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: Speed | None) -> Section:
