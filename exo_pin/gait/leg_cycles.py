@@ -40,8 +40,8 @@ class LegCycle:
 def leg_cycles(gait: Gait) -> tuple[LegCycle, ...]:
     """The cycle of each leg; a leg without a heel strike is left out.
 
-    A recording without a whole cycle is placed in the cycle by one heel strike and twice the step time; the
-    note of its legs says so.
+    A leg without a whole cycle is placed in the cycle by one heel strike and the stride time of the other,
+    or twice the step time where that has none either; its note says so.
     """
     found = (_leg(gait, side) for side in SIDES)
     return tuple(leg for leg in found if leg is not None)
@@ -84,17 +84,20 @@ def _leg(gait: Gait, side: Side) -> LegCycle | None:
 
 
 def _estimated(gait: Gait, side: Side, columns: list[int]) -> LegCycle | None:
-    """The whole recording, placed in the cycle by one heel strike and twice the step time."""
+    """The whole recording, placed in the cycle by one heel strike and an estimated stride time."""
     strikes = {s: [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", s)] for s in SIDES}
     if not (strikes["left"] and strikes["right"]):
         return None
-    stride = 2 * abs(strikes["left"][0] - strikes["right"][0])
+    other: Side = SIDES[1 - SIDES.index(side)]
+    whole = [span.duration for span in strides(gait, other) if not span.why]
+    stride = float(np.mean(whole)) if whole else 2 * abs(strikes["left"][0] - strikes["right"][0])
+    how = f"the {other} foot's stride" if whole else "a stride of twice the step time"
     share = (gait.time - strikes[side][0]) / stride
     percent, q = 100 * (share - np.floor(share)), gait.q[:, columns]
     breaks = np.flatnonzero(np.diff(percent) < 0) + 1
     note = (
-        f"{side}: no whole cycle in the recording; placed by its heel strike at {strikes[side][0]:.3f} s "
-        f"and a stride of twice the step time, {stride:.3f} s"
+        f"{side}: no whole cycle of this foot in the recording; placed by its heel strike at "
+        f"{strikes[side][0]:.3f} s and {how}, {stride:.3f} s"
     )
     return LegCycle(
         side,

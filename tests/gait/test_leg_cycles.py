@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exo_pin.gait import Event, Gait, leg_cycles, stance_times
+from exo_pin.gait import Event, Gait, leg_cycles, normative_gait, stance_times
 
 FOURIER = 1e-9  # [rad] interpolation of a band-limited curve at its own samples
 
@@ -54,3 +54,16 @@ def test_the_times_of_a_stance_count_from_the_first_sample(recording):
     )
     for side in ("left", "right"):
         np.testing.assert_allclose(stance_times(late, side), stance_times(recording, side), atol=1e-12)
+
+
+def test_a_foot_without_a_cycle_is_placed_by_the_stride_of_the_other():
+    """The left foot strikes twice, the right one once and late: twice the step time is not the stride."""
+    walk = normative_gait("free").repeated(2)
+    T = walk.duration / 2
+    keep = walk.time <= 1.2 * T
+    events = [Event(0.0, "heel_strike", "left"), Event(T, "heel_strike", "left")]
+    events.append(Event(0.6 * T, "heel_strike", "right"))
+    left, right = leg_cycles(Gait(walk.time[keep], walk.q[keep], events=tuple(events)))
+    assert "one cycle" in left.note
+    assert f"the left foot's stride, {T:.3f} s" in right.note
+    assert np.nanmax(right.percent) < 100
