@@ -28,6 +28,10 @@ PelvisMotion = Literal["recorded", "device"]
 """What moves the pelvis: the recorded walk, or the device as its own slides allow."""
 PassiveJoints = Literal["held", "released"]
 """Whether joints without a motor are held at zero or move freely."""
+KneeRule = Literal["stop", "bend"]
+"""What a device does where a recorded knee hyperextends: hold it at its stop, or bend it to keep the foot."""
+FitWord = Literal["fits", "concession", "no"]
+ConcessionKind = Literal["knee held at its stop", "cadence", "amplitude"]
 SupportStyle = Literal["carried", "still"]
 """How the balance support moves the pelvis in a picture: with the walk, or not at all."""
 SizeOrigin = Literal[

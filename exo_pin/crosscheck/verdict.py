@@ -63,9 +63,14 @@ class Check:
         return not self.joints_outside
 
     @property
+    def consistent(self) -> bool:
+        """Whether every cross-check succeeds, whatever the joint limits say."""
+        return self.fk_ok and self.ik_ok and self.angles_ok
+
+    @property
     def ok(self) -> bool:
         """Whether every cross-check succeeds and every joint keeps its range."""
-        return self.fk_ok and self.ik_ok and self.angles_ok and self.limits_ok
+        return self.consistent and self.limits_ok
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain values for JSON; units as the keys say, limits in degrees."""

@@ -7,15 +7,20 @@ from exo_pin.feasible.amplitude import LARGEST_AMPLITUDE
 from exo_pin.feasible.assessment import feasible
 from exo_pin.feasible.collision import Nearest, nearest
 from exo_pin.feasible.device_fit import Fit
+from exo_pin.feasible.device_walk import Concession, DeviceWalk, device_walk, pelvis_by_default
 from exo_pin.feasible.feasibility import LARGEST_CADENCE, Failure, Feasibility
 
 __all__ = [
     "LARGEST_AMPLITUDE",
     "LARGEST_CADENCE",
+    "Concession",
+    "DeviceWalk",
     "Failure",
     "Feasibility",
     "Fit",
     "Nearest",
+    "device_walk",
     "feasible",
     "nearest",
+    "pelvis_by_default",
 ]

@@ -8,7 +8,7 @@ import dataclasses
 import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import HipOrder, Side
 from exo_pin.demand import joint_demands
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
@@ -30,6 +30,7 @@ def feasible(
     acceleration: float | None = None,
     gap: float = 0.0,
     torques: Torques | None = None,
+    hip_order: HipOrder = "clinical",
 ) -> Feasibility:
     """Whether a device can do a walk with a person; the pelvis moves as the device's prismatic joints allow.
 
@@ -40,12 +41,13 @@ def feasible(
         acceleration: Largest acceleration of every joint [rad/s^2]; the device's own if left out.
         gap: Distance that parts of the device must keep [m].
         torques: Joint torques of the walk; not checked if left out.
+        hip_order: Order of the hip axes, which have the limits.
 
     Raises:
         UnknownNameError: The device is unknown.
         GaitError: The torques are at other times than the walk.
     """
-    robot = load_robot(body, device=device)
+    robot = load_robot(body, device=device, hip_order=hip_order)
     done = dataclasses.replace(robot.to_gait(robot.from_gait(gait), gait), base=gait.base)
     with contextlib.suppress(GaitError):  # without cycles the phases are unknown
         done = with_events(robot, done)

@@ -132,6 +132,26 @@ class Feasibility:
         share = percent(self.gait, side)[mask]
         return [p for p, (low, high) in PHASES.items() if ((share >= low) & (share < high)).any()]
 
+    def words(self, failure: Failure) -> str:
+        """A failure in words: what, how far, in how many samples and in which phases of the cycle."""
+        if failure.what in ("treadmill", "person"):
+            return f"{failure.what}: {failure.how}"
+        frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure.frames)
+        phases = self.phases(failure.samples, failure.what)
+        where = f"; {', '.join(phases)}" if phases else ""
+        count = int(failure.samples.sum())
+        return f"{failure.what}: {failure.how} ({self.excess(failure)}) in {count} frames ({frames}{where})"
+
+    def excess(self, failure: Failure) -> str:
+        """How far a failure is beyond its limit, in words."""
+        for demand in self.joints:
+            if demand.joint == failure.what:
+                return _excess(demand, failure.how)
+        for side, slack in self.reach.items():
+            if failure.what == f"{side} leg":
+                return f"by {-1e3 * slack:.1f} mm"
+        return f"by {1e3 * (self.gap - self.clearance):.1f} mm"
+
     @property
     def conditions(self) -> tuple[str, ...]:
         """Assumptions of the verdict, in sentences."""
@@ -182,6 +202,20 @@ def _too_strong(demand: JointDemand) -> Mask:
     if demand.torque is None:
         return np.zeros(len(demand.position.required), dtype=bool)
     return demand.torque.exceeded
+
+
+def _excess(demand: JointDemand, how: str) -> str:
+    """How far a joint is beyond one of its limits."""
+    slides, degree = demand.prismatic, float(np.degrees(1.0))
+    if how == "outside its range":
+        scale, unit = (1e3, "mm") if slides else (degree, "deg")
+        return f"by {-scale * demand.position.margin:.1f} {unit}"
+    peak, unit = demand.speed, "m/s" if slides else "rad/s"
+    if how == "accelerated too hard":
+        peak, unit = demand.acceleration, f"{unit}^2"
+    elif how == "too much torque" and demand.torque is not None:
+        peak, unit = demand.torque, "N" if slides else "N m"
+    return f"{peak.peak:.4g} of {peak.available:.4g} {unit}"
 
 
 def _joint_failures(demand: JointDemand) -> Iterator[Failure]:

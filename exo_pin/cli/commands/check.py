@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show
+from exo_pin.cli import device_options, options, show
 
 if TYPE_CHECKING:
     from exo_pin.crosscheck import Check
+    from exo_pin.feasible import DeviceWalk
 
 _EXAMPLES = """examples:
   exo-pin check                      the normal walk at free speed
@@ -16,7 +17,8 @@ _EXAMPLES = """examples:
   exo-pin check fast --json > check.json
   exo-pin check --device lokomat     all ways of forward kinematics on another device
 
-exit code 0: everything agrees; 1: something does not, or a joint leaves its limits"""
+exit code 0: everything agrees and the device fits, perhaps with a concession (knee held at its stop, a slower
+or a smaller walk); 1: something does not agree, or the device does not fit"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -25,36 +27,36 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_gait(parser)
     options.add_body(parser)
     options.add_hip_order(parser)
-    parser.add_argument(
-        "--device",
-        default="exo12",
-        metavar="DEVICE",
-        help="name or device file (default: exo12); another one is checked on what it can do of the gait",
+    device_options.add(
+        parser, "name or device file (default: exo12); another one is checked on what it can do of the gait"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Check and print; 0 if everything agrees within the limits, else 1."""
-    from exo_pin import crosscheck, devices
+    """Check and print; 0 if everything agrees and the device fits, else 1."""
+    from exo_pin import crosscheck
     from exo_pin.robot import load_robot
 
     body = options.body_from(args)
-    device = devices.find(args.device).carried()  # the gait itself says where the pelvis is
-    robot = load_robot(body, device=device, hip_order=args.hip_order)
-    gait = options.gait_from(args, body)
-    if device.locked:
-        gait = robot.to_gait(robot.from_gait(gait), gait)
+    given = options.gait_from(args, body)
     with show.busy("cross-checking"):
-        verdict = crosscheck.check(robot, gait)
+        found = device_options.answer(args, body, given, hip_order=args.hip_order)
+        device = found.device.carried()  # the gait itself says where the pelvis is
+        robot = load_robot(body, device=device, hip_order=args.hip_order)
+        gait = found.gait
+        if device.locked:
+            gait = robot.to_gait(robot.from_gait(gait), gait)
+        checked = crosscheck.check(robot, gait)
+    ok = checked.consistent and found.ok
     if args.json:
-        show.as_json(verdict.facts())
+        show.as_json(checked.facts() | {"ok": ok} | found.facts())
     else:
-        _print(verdict, args.gait)
-    return 0 if verdict.ok else 1
+        _print(checked, found, args.gait)
+    return 0 if ok else 1
 
 
-def _print(verdict: Check, name: str) -> None:
+def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
     from math import degrees
 
     from exo_pin.crosscheck import FK_TOLERANCE
@@ -84,7 +86,8 @@ def _print(verdict: Check, name: str) -> None:
         for joint, demand in verdict.limits.items()
     ]
     show.table("Joint ranges", ["joint", "min deg", "max deg", "outside limits"], limit_rows)
-    print("verdict: " + ("all is well" if verdict.ok else _why(verdict)))
+    print(f"cross-checks: {'all agree' if verdict.consistent else _why(verdict)}")
+    print(f"{found.loss_sentence}\nverdict: {found.sentence}")
 
 
 def _mark(ok: bool) -> str:
@@ -96,6 +99,5 @@ def _why(verdict: Check) -> str:
         (verdict.fk_ok, "forward kinematics disagree"),
         (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
         (verdict.angles_ok, "recovered angles differ from the given ones, or the two methods disagree"),
-        (verdict.limits_ok, f"outside the limits: {', '.join(verdict.joints_outside)}"),
     ]
     return "NO: " + "; ".join(text for ok, text in reasons if not ok)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import body_options, options, show, walk_output
+from exo_pin.cli import body_options, device_options, options, show, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -24,11 +25,12 @@ _EXAMPLES = """examples:
   exo-pin edit free between.csv --blend slow=0.3
   exo-pin edit slow faster.csv --transition free=3          from one to the other within 3 cycles
   exo-pin edit slow faster.csv --transition free=4s --ramp 2 2
+  exo-pin edit walk.mot fit.csv --fit lokomat               what the device can do of it: see exo-pin feasible
 
 Adjustments are made in the order of these options: cutoff, cycle, symmetric, mirror, blend, amplitude,
-stride and clearance, transition, duration or slower, ramp. Limits, speeds and accelerations are checked
-after each. exit code 0: done; 1: written, but a joint leaves its limits; or the legs cannot follow, and
-nothing is written."""
+stride and clearance, transition, duration or slower, ramp, fit. Limits, speeds and accelerations are checked
+after each. exit code 0: done; 1: written, but a joint leaves its limits; or the legs cannot follow or the
+device of --fit does not fit, and nothing is written."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -68,6 +70,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--slower", type=float, metavar="F", help="this many times slower")
     group.add_argument("--duration", type=float, metavar="S", help="length of the whole walk [s]")
     group.add_argument("--ramp", type=float, nargs=2, metavar=("UP", "DOWN"), help="slow start and stop [s]")
+    group.add_argument(
+        "--fit",
+        metavar="DEVICE",
+        help="the walk that this device can do, with the smallest concession: knee held at its stop, slower "
+        "or smaller",
+    )
+    device_options.add_knee(group)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
@@ -86,6 +95,11 @@ def run(args: argparse.Namespace) -> int:
         if changed is not gait:
             checks[name] = edit.recheck(robot, changed)
         gait = changed
+    if args.fit is not None:
+        fitted = _fitted(args, body, gait)
+        if fitted is None:
+            return 1
+        gait, checks["fitted"] = fitted, edit.recheck(robot, fitted)
     save_gait(gait, args.output)
     if args.json:
         steps = [{"step": name, **found.facts()} for name, found in checks.items()]
@@ -198,6 +212,17 @@ def _time(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gai
     if args.slower is None and args.duration is None:
         return gait
     return edit.retimed(gait, factor=args.slower, duration=args.duration)
+
+
+def _fitted(args: argparse.Namespace, body: Body, gait: Gait) -> Gait | None:
+    """The walk that the device of `--fit` can do; None, with the reason on stderr, where it fits none."""
+    import dataclasses
+
+    from exo_pin.feasible import device_walk
+
+    found = device_walk(gait, args.fit, body, knee=args.knee)
+    print(found.sentence if found.ok else f"exo-pin: {found.sentence}", file=sys.stderr)
+    return dataclasses.replace(found.gait, source=f"{gait.source}; {found.sentence}") if found.ok else None
 
 
 def _ramp(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:

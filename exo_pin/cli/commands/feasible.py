@@ -6,13 +6,13 @@ import argparse
 import math
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, torque_options
+from exo_pin.cli import device_options, options, show, torque_options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exo_pin.demand import JointDemand
-    from exo_pin.feasible import Failure, Feasibility
+    from exo_pin.feasible import DeviceWalk, Feasibility
 
 _EXAMPLES = """examples:
   exo-pin feasible                               the normal walk on the 12-joint exoskeleton
@@ -22,16 +22,15 @@ _EXAMPLES = """examples:
 
 Ranges, speeds and accelerations of revolute and prismatic joints, self-collision and reach; torques if they
 are given. The motion of joints that the device locks, and of the pelvis where the device blocks it, is listed
-and does not count; exo-pin compare quantifies that loss. exit code 0: it can; 1: it cannot"""
+and does not count: what the soles miss by it stands beside the verdict. exit code 0: the device fits, or fits
+with a concession (knee held at its stop, a slower or a smaller walk); 1: it does not fit"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.epilog = _EXAMPLES
     options.add_gait(parser)
-    parser.add_argument(
-        "--device", default="exo12", metavar="DEVICE", help="name or device file (default: exo12)"
-    )
+    device_options.add(parser)
     parser.add_argument(
         "--acceleration",
         type=float,
@@ -49,7 +48,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Assess and print; 0 if the device can do the walk, else 1."""
     from exo_pin.errors import DescriptionError
-    from exo_pin.feasible import feasible
 
     acceleration = args.acceleration
     if not (acceleration is None or 0.0 < acceleration < math.inf) or not math.isfinite(args.gap):
@@ -57,15 +55,16 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     gait = options.gait_from(args, body)
     known, gap = torque_options.given(args), args.gap / 1e3
-    verdict = feasible(gait, args.device, body, acceleration=acceleration, gap=gap, torques=known)
+    found = device_options.answer(args, body, gait, acceleration=acceleration, gap=gap, torques=known)
     if args.json:
-        show.as_json(verdict.facts())
+        show.as_json(found.as_recorded.facts() | {"ok": found.ok} | found.facts())
     else:
-        _print(verdict, args.gait)
-    return 0 if verdict.ok else 1
+        _print(found, args.gait)
+    return 0 if found.ok else 1
 
 
-def _print(verdict: Feasibility, name: str) -> None:
+def _print(found: DeviceWalk, name: str) -> None:
+    verdict = found.as_recorded
     _print_demands(f"{name} on {verdict.robot.name}", "deg", [d for d in verdict.joints if not d.prismatic])
     _print_demands("Slides of the pelvis", "mm", [d for d in verdict.joints if d.prismatic])
     spare = ", ".join(f"{side} {show.fixed(1e3 * x)} mm" for side, x in verdict.reach.items())
@@ -83,8 +82,8 @@ def _print(verdict: Feasibility, name: str) -> None:
     for sentence in verdict.conditions:
         print(f"note: {sentence}")
     for failure in verdict.failures:
-        print(f"NOT OK {_failure(verdict, failure)}")
-    print("verdict: " + ("the device can do this walk" if verdict.ok else "NO"))
+        print(f"NOT OK {verdict.words(failure)}")
+    print(f"{found.loss_sentence}\nverdict: {found.sentence}")
 
 
 _LEAST_DROPPED = 0.05
@@ -122,15 +121,6 @@ def _print_demands(title: str, unit: str, demands: Sequence[JointDemand]) -> Non
         verdicts = ["ok" if demand.ok else "NO" for demand in demands]
         lines = [[*(row[k] for k in kept), word] for row, word in zip(rows, verdicts, strict=True)]
         show.table(title, [*(columns[k] for k in kept), ""], lines)
-
-
-def _failure(verdict: Feasibility, failure: Failure) -> str:
-    if failure.what in ("treadmill", "person"):
-        return f"{failure.what}: {failure.how}"
-    frames = ", ".join(f"{a}" if a == b else f"{a}-{b}" for a, b in failure.frames)
-    phases = verdict.phases(failure.samples, failure.what)
-    where = f"; {', '.join(phases)}" if phases else ""
-    return f"{failure.what}: {failure.how} in {int(failure.samples.sum())} frames ({frames}{where})"
 
 
 def _cadence(verdict: Feasibility) -> str:

@@ -1,0 +1,53 @@
+"""A device on the command line: who wears which, who moves the pelvis, what its knees do; and its answer."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
+    from exo_pin.feasible import DeviceWalk
+    from exo_pin.gait import Gait
+
+
+def add(parser: argparse.ArgumentParser, what: str = "name or device file (default: exo12)") -> None:
+    """`--device`, `--pelvis` and `--knee`.
+
+    Args:
+        parser: Of the command.
+        what: Help of `--device`.
+    """
+    parser.add_argument("--device", default="exo12", metavar="DEVICE", help=what)
+    parser.add_argument(
+        "--pelvis",
+        choices=("recorded", "device"),
+        help="who moves the pelvis: the recorded walk, or the device as it can (default: a device whose "
+        "stand has slides does, any other goes with the walk)",
+    )
+    add_knee(parser)
+
+
+def add_knee(parser: argparse._ActionsContainer) -> None:
+    """`--knee`."""
+    parser.add_argument(
+        "--knee",
+        choices=("stop", "bend"),
+        default="stop",
+        help="a recorded knee beyond its stop is held there and the foot moves (default), or it bends and "
+        "the foot stays",
+    )
+
+
+def answer(args: argparse.Namespace, body: Body, gait: Gait, **more: Any) -> DeviceWalk:
+    """The device's answer to a walk.
+
+    Args:
+        args: The command line, with the arguments of `add`.
+        body: Who wears the device.
+        gait: The walk.
+        more: Further arguments of `exo_pin.feasible.device_walk`.
+    """
+    from exo_pin.feasible import device_walk
+
+    return device_walk(gait, args.device, body, pelvis=args.pelvis, knee=args.knee, **more)

@@ -1,0 +1,166 @@
+"""One answer to a walk for every command: three grades, the smallest concession, the same numbers."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from exo_pin.anatomy import FEET, JOINTS
+from exo_pin.cli import main
+from exo_pin.compare import Conditions, compare
+from exo_pin.devices import DEVICES
+from exo_pin.feasible import device_walk, feasible, pelvis_by_default
+from exo_pin.formats import load_gait
+from exo_pin.gait import Gait, normative_gait
+from exo_pin.kinematics import poses, spatiotemporal
+from exo_pin.robot import load_robot
+
+KNEE = JOINTS.index("left_knee_flexion")
+CASES = [("free", "lokomat"), ("very_fast", "lokomat"), ("slow", "h2")]
+
+
+@pytest.fixture
+def subject01(shared):
+    return shared / "opensim_subject01_walk" / "subject01_walk1_ik.mot"
+
+
+def _json(capsys, *words):
+    code = main([*words, "--json"])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def _told(capsys, *words):
+    code = main([*words])
+    return code, " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize(("walk", "device"), [*CASES, ("subject01", "lokomat"), ("subject01", "exo12")])
+def test_feasible_and_check_give_one_verdict_with_the_same_numbers(walk, device, capsys, request):
+    name = str(request.getfixturevalue("subject01")) if walk == "subject01" else walk
+    code, first = _json(capsys, "feasible", name, "--device", device)
+    other, second = _json(capsys, "check", name, "--device", device)
+    assert code == other == (1 if first["verdict"] == "no" else 0)
+    for key in (
+        "verdict",
+        "reason",
+        "concession",
+        "concessions",
+        "pelvis",
+        "sole_rms_mm",
+        "sole_max_mm",
+        "ok",
+    ):
+        assert first[key] == second[key], key
+
+
+def test_a_walk_that_every_limit_allows_fits():
+    found = device_walk(normative_gait(), "h2")
+    assert (found.verdict, found.concession, found.gait) == ("fits", None, found.recorded)
+    assert found.loss.rms == compare(normative_gait(), ["h2"]).best[0].rms
+
+
+def test_a_belt_that_is_too_slow_costs_cadence_and_the_slower_walk_fits(capsys, tmp_path):
+    found = device_walk(normative_gait(), "lokomat")
+    speed = float(spatiotemporal(load_robot(), normative_gait())["speed"].mean)
+    assert found.concession.what == "cadence"
+    assert found.concession.unit == "times"
+    assert found.concession.how_much == np.floor(100 * 3.2 / 3.6 / speed) / 100
+    assert found.gait.duration == pytest.approx(normative_gait().duration / found.concession.how_much)
+    assert device_walk(found.gait, "lokomat").verdict == "fits"
+    out = tmp_path / "fit.csv"
+    assert main(["edit", "free", str(out), "--fit", "lokomat"]) == 0
+    assert "cadence 0.72" in capsys.readouterr().err
+    assert load_gait(out).duration == pytest.approx(found.gait.duration, rel=1e-6)
+
+
+def test_too_much_of_a_change_is_no_concession(capsys, tmp_path):
+    found = device_walk(normative_gait("very_fast"), "lokomat")
+    assert found.verdict == "no"
+    assert "treadmill" in found.reason
+    out = tmp_path / "none.csv"
+    assert main(["edit", "very_fast", str(out), "--fit", "lokomat"]) == 1
+    assert "treadmill" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def _hyperextended(by):
+    gait = normative_gait("very_slow")
+    q = np.array(gait.q)
+    q[:, KNEE] -= q[:, KNEE].min() + np.radians(by)
+    return dataclasses.replace(gait, q=q)
+
+
+def test_a_hyperextended_knee_is_held_at_its_stop_and_the_foot_moves():
+    gait = _hyperextended(3.0)
+    found = device_walk(gait)
+    frames = gait.q[:, KNEE] < 0
+    assert (found.verdict, found.concession.what, found.concession.unit) == (
+        "concession",
+        "knee held at its stop",
+        "mm",
+    )
+    assert np.array_equal(found.gait.q[frames, KNEE], np.zeros(frames.sum()))
+    kept = np.ones(12, dtype=bool)
+    kept[KNEE] = False
+    assert np.array_equal(found.gait.q[:, kept], gait.q[:, kept])
+    robot = load_robot()
+    before, after = (
+        poses(robot, robot.from_gait(g), FEET, base=g.base)[:, 0, :3, 3] for g in (gait, found.gait)
+    )
+    moved = 1e3 * np.linalg.norm(after - before, axis=1)
+    assert found.concession.how_much == pytest.approx(moved.max())
+    assert f"left foot {moved.max():.1f} mm off in {frames.sum()} frames" in found.reason
+    assert "right foot" not in found.reason
+
+
+def test_a_bent_knee_keeps_the_foot():
+    gait = _hyperextended(3.0)
+    found = device_walk(gait, knee="bend")
+    assert all(concession.what != "knee held at its stop" for concession in found.concessions)
+    bent = found.as_recorded.gait
+    robot = load_robot()
+    feet = [poses(robot, robot.from_gait(g), FEET, base=g.base) for g in (gait, bent)]
+    assert feet[1] == pytest.approx(feet[0], abs=1e-8)
+    assert bent.q[:, KNEE].min() >= -1e-9
+
+
+def test_a_joint_far_out_of_range_says_which_where_and_how_far():
+    gait = normative_gait()
+    q = np.array(gait.q)
+    hip = JOINTS.index("left_hip_adduction")
+    q[:, hip] += np.radians(60.0)
+    found = device_walk(dataclasses.replace(gait, q=q))
+    assert found.verdict == "no"
+    excess = np.degrees(q[:, hip].max()) - 30.0
+    assert f"left_hip_adduction: outside its range (by {excess:.1f} deg)" in found.reason
+    assert "stance" in found.reason
+    assert found.gait is found.recorded
+
+
+def test_too_large_a_movement_costs_amplitude():
+    gait = normative_gait("slow")
+    q = np.array(gait.q)
+    mean = q[:, KNEE].mean() + np.radians(20.0)
+    q[:, KNEE] = mean + 3.0 * (q[:, KNEE] - q[:, KNEE].mean())
+    found = device_walk(Gait(gait.time, np.where(q < 0, 0, q), base=gait.base, periodic=True))
+    assert found.verdict in ("concession", "no")
+    if found.concession is not None:
+        assert found.concession.how_much < 1
+        assert not feasible(found.gait).failures
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_a_stand_with_slides_holds_the_pelvis_itself(name):
+    device = DEVICES[name]
+    assert pelvis_by_default(device) == ("device" if device.slides else "recorded")
+    assert device_walk(normative_gait("slow"), name).conditions == Conditions(pelvis_by_default(device))
+
+
+def test_the_words_of_both_commands_hold_verdict_reason_and_loss(capsys):
+    found = device_walk(normative_gait(), "lokomat")
+    for command in ("feasible", "check"):
+        code, said = _told(capsys, command, "free", "--device", "lokomat")
+        assert code == 0
+        assert found.sentence in said
+        assert found.loss_sentence in said
