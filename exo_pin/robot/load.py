@@ -15,7 +15,7 @@ from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import Base, HipOrder
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
-from exo_pin.robot import urdf_parser
+from exo_pin.robot import urdf_joints, urdf_parser
 from exo_pin.robot.model import Robot
 
 
@@ -61,26 +61,31 @@ def load_urdf(
 ) -> Robot:
     """A robot from any URDF.
 
+    Joints without end stops get half a turn each way, floating and planar joints are held: `Robot.remarks`
+    says so.
+
     Args:
-        source: Path of a URDF file, or its text.
+        source: Path of a URDF or xacro file, or a URDF's text.
         base: `"fixed"` or `"floating"`.
         placement: Pose of the root link in the world (4, 4); the identity if left out.
         hip_order: Order of its hip joints, should it have the joints of `JOINTS`.
         path: File that a text comes from, beside which the viewer finds its meshes.
 
     Raises:
-        DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts.
+        DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts, or the limits of a
+            joint are wrong.
     """
     if base not in ("fixed", "floating"):
         raise UnknownNameError("base", base, ("fixed", "floating"))
     text = _text(source)
     if path is None and text is not source:
         path = source
+    text, remarks = urdf_joints.accepted(text)
     model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
     names = tuple(model.names)[2 if base == "floating" else 1 :]
     for name in names:
         if model.joints[model.getJointId(name)].nq != 1:
-            raise DescriptionError(f"joint {name!r} is not revolute or prismatic with limits")
+            raise DescriptionError(f"joint {name!r} is not revolute or prismatic")
     stand = np.eye(4) if placement is None else np.array(placement, dtype=float)
     if base == "fixed":
         _place(model, pin.SE3(stand))
@@ -97,12 +102,15 @@ def load_urdf(
         base=base,
         hip_order=hip_order,
         path=None if path is None else Path(path).absolute(),
+        remarks=remarks,
     )
 
 
 def _text(source: str | Path) -> str:
     if isinstance(source, str) and "<" in source:
         return source
+    if Path(source).suffix.lower() == ".xacro":
+        return description.expanded(Path(source))
     try:
         return Path(source).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

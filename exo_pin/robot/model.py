@@ -50,6 +50,7 @@ class Robot:
         hip_order: Order of the hip joints from the pelvis outwards.
         device: The device it was made from; None for a URDF from elsewhere.
         path: The file that the URDF was read from, beside which its meshes are found; None for a text.
+        remarks: What was changed in the URDF to have joints that move within limits, a plain sentence each.
     """
 
     model: Any
@@ -65,6 +66,7 @@ class Robot:
     hip_order: HipOrder = "clinical"
     device: Device | None = None
     path: Path | None = None
+    remarks: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

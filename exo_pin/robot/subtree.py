@@ -14,6 +14,7 @@ from exo_pin.arrays import Array, Index
 from exo_pin.robot.subtree_arrays import SubtreeArrays, read_arrays
 
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
+_LINK = " (link)"  # added for a moment to the name of a link that a joint has too
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,13 +106,32 @@ def read_subtree(
         floating: Whether the robot's floating base is among the joints.
     """
     fixed = [j for j in range(1, model.njoints) if j not in joints]
-    reduced = pin.buildReducedModel(model, fixed, rest)
+    reduced = _reduced(model, fixed, rest)
     columns = [c for j in sorted(joints) for c in range(model.idx_qs[j], model.idx_qs[j] + model.nqs[j])]
     lower, upper = np.array(reduced.lowerPositionLimit), np.array(reduced.upperPositionLimit)
     if floating:
         lower[:_FREE], upper[:_FREE] = -np.inf, np.inf
     ids = tuple(_frame(reduced, name) for name in frames)
     return Subtree(reduced, frames, ids, np.array(columns, dtype=int), lower, upper, floating)
+
+
+def _reduced(model: Any, fixed: list[int], rest: Array) -> Any:
+    """Pinocchio's reduced model, also where a link has the name of a joint, which Pinocchio cannot reduce."""
+    joints = set(model.names)
+    shared = {f.name for f in model.frames if f.type == pin.FrameType.BODY and f.name in joints}
+    if not shared:
+        return pin.buildReducedModel(model, fixed, rest)
+    renamed = model.copy()
+    _rename_links(renamed, {name: name + _LINK for name in shared})
+    reduced = pin.buildReducedModel(renamed, fixed, rest)
+    _rename_links(reduced, {name + _LINK: name for name in shared})
+    return reduced
+
+
+def _rename_links(model: Any, names: Mapping[str, str]) -> None:
+    for k in range(model.nframes):  # by index: slices of Pinocchio's vectors are copies
+        if model.frames[k].type == pin.FrameType.BODY:
+            model.frames[k].name = names.get(model.frames[k].name, model.frames[k].name)
 
 
 def _frame(model: Any, name: str) -> int:

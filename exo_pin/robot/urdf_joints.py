@@ -1,0 +1,186 @@
+"""Joints of a URDF as they are accepted: limits judged, endless joints bounded, floating joints held.
+
+Everything that is wrong in a description's joints is refused here, before Pinocchio builds the model.
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from exo_pin.errors import DescriptionError, UnknownNameError
+
+_PI = repr(math.pi)
+_HELD = ("floating", "planar")
+
+
+class Accepted(NamedTuple):
+    """A URDF whose joints are accepted.
+
+    Attributes:
+        text: Its text, all moving joints revolute or prismatic and limited.
+        remarks: What was changed in it, a plain sentence each.
+    """
+
+    text: str
+    remarks: tuple[str, ...]
+
+
+class Follower(NamedTuple):
+    """A joint that follows another (`<mimic>`): its position is `ratio` times the leader's plus `offset`.
+
+    Attributes:
+        leader: Name of the joint that it follows.
+        ratio: Its motion over the leader's.
+        offset: Its position where the leader's is zero [rad]; of prismatic joints [m].
+    """
+
+    leader: str
+    ratio: float
+    offset: float
+
+
+def accepted(text: str) -> Accepted:
+    """A URDF's text with joints that can be used: half a turn each way without end stops, none that float.
+
+    Args:
+        text: The URDF. What is no XML is returned as it is: the parser that reads it has the better message.
+
+    Raises:
+        DescriptionError: The limits of a joint are no numbers, or the lower one is above the upper one.
+    """
+    root = _root(text)
+    if root is None:
+        return Accepted(text, ())
+    joints = root.findall("joint")
+    for joint in joints:
+        _judge_limits(joint)
+    endless = [joint for joint in joints if joint.get("type") == "continuous"]
+    held = [joint for joint in joints if joint.get("type") in _HELD]
+    if not endless and not held:
+        return Accepted(text, ())
+    remarks = []
+    if endless:
+        remarks.append(f"half a turn each way for joints without end stops: {_names(endless)}")
+    if held:
+        remarks.append(f"floating or planar joints are held: {_names(held)}")
+    for joint in endless:
+        _bound(joint)
+    for joint in held:
+        joint.set("type", "fixed")
+    return Accepted(ET.tostring(root, encoding="unicode"), tuple(remarks))
+
+
+def with_limits(text: str, limits: Mapping[str, tuple[float, float]]) -> str:
+    """A URDF's text with other limits of some joints.
+
+    Args:
+        text: The URDF.
+        limits: Lower and upper limit by joint [rad]; of prismatic joints [m].
+
+    Raises:
+        DescriptionError: It is no XML.
+        UnknownNameError: It has no such joint that moves.
+    """
+    root = _root(text)
+    if root is None:
+        raise DescriptionError("no XML, so no joints whose limits could be replaced")
+    joints = {
+        str(joint.get("name")): joint for joint in root.findall("joint") if joint.get("type") != "fixed"
+    }
+    for name, (lower, upper) in limits.items():
+        if name not in joints:
+            raise UnknownNameError("joint with limits", name, joints)
+        _bound(joints[name], repr(lower), repr(upper))
+    return ET.tostring(root, encoding="unicode")
+
+
+def followers(text: str) -> dict[str, Follower]:
+    """The joints of a URDF that follow others, by name.
+
+    Raises:
+        DescriptionError: A ratio or offset is no number, or joints follow each other in a circle.
+    """
+    root = _root(text)
+    found: dict[str, Follower] = {}
+    for joint in [] if root is None else root.findall("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None and joint.get("type") != "fixed":
+            name = str(joint.get("name"))
+            ratio, offset = (_number(name, mimic, *pair) for pair in (("multiplier", 1.0), ("offset", 0.0)))
+            found[name] = Follower(str(mimic.get("joint")), ratio, offset)
+    return {name: _followed(name, found) for name in found}
+
+
+def _followed(name: str, known: Mapping[str, Follower]) -> Follower:
+    """The joint at the end of the line that a joint follows: a leader that follows nobody."""
+    leader, ratio, offset = known[name]
+    seen = {name}
+    while leader in known:
+        if leader in seen:
+            raise DescriptionError(f"joint {name!r} follows itself: <mimic> joints in a circle")
+        seen.add(leader)
+        further = known[leader]
+        ratio, offset = ratio * further.ratio, offset + ratio * further.offset
+        leader = further.leader
+    return Follower(leader, ratio, offset)
+
+
+def _judge_limits(joint: ET.Element) -> None:
+    limit, name = joint.find("limit"), str(joint.get("name"))
+    if limit is None or joint.get("type") not in ("revolute", "prismatic"):
+        return
+    lower, upper = (_number(name, limit, end, 0.0) for end in ("lower", "upper"))
+    if lower > upper:
+        raise DescriptionError(
+            f"joint {name!r}: its lower limit {_said(joint, lower)} is above its upper limit "
+            f"{_said(joint, upper)}; swap them, or set limits_deg in a record of the robot (docs/robots.md)"
+        )
+
+
+def _said(joint: ET.Element, value: float) -> str:
+    """A limit in its unit."""
+    return f"{value:g} m" if joint.get("type") == "prismatic" else f"{math.degrees(value):.4g} deg"
+
+
+def _number(name: str, element: ET.Element, attribute: str, default: float) -> float:
+    """A finite number in an element of a joint."""
+    text = element.get(attribute)
+    if text is None:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        shown = "".join(mark if mark.isprintable() else " " for mark in text[:40])
+        raise DescriptionError(
+            f"joint {name!r}: {attribute} of <{element.tag}> is {shown!r}; a finite number is accepted"
+        )
+    return value
+
+
+def _bound(joint: ET.Element, lower: str = f"-{_PI}", upper: str = _PI) -> None:
+    """Limit a joint; one without end stops becomes revolute."""
+    if joint.get("type") == "continuous":
+        joint.set("type", "revolute")
+    limit = joint.find("limit")
+    if limit is None:
+        limit = ET.SubElement(joint, "limit")
+    for attribute in ("effort", "velocity"):
+        limit.set(attribute, limit.get(attribute, "0"))
+    limit.set("lower", lower)
+    limit.set("upper", upper)
+
+
+def _names(joints: Iterable[ET.Element]) -> str:
+    return ", ".join(str(joint.get("name")) for joint in joints)
+
+
+def _root(text: str) -> ET.Element | None:
+    try:
+        return ET.fromstring(text)
+    except (ET.ParseError, ValueError):
+        return None
