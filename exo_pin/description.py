@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin import cache, devices
+from exo_pin import cache, devices, ros_packages
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
 from exo_pin.anatomy.names import HipOrder
@@ -116,6 +116,46 @@ def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:
     text = _by_xacro(values, name)
     cache.keep("urdf", known, text.encode())
     return text
+
+
+def expanded(path: Path) -> str:
+    """The URDF text that a xacro file of one's own stands for; each argument of it has its default.
+
+    `$(find package)` is looked up beside the file, above it, and on `ROS_PACKAGE_PATH` and
+    `AMENT_PREFIX_PATH`.
+
+    Raises:
+        DescriptionError: xacro refuses it, or a package is not found; the message has the reason.
+    """
+    import xacro
+    from xacro import substitution_args
+
+    if not path.is_file():
+        raise DescriptionError(f"{path}: no such file")
+    own, noise = substitution_args._eval_find, io.StringIO()
+    substitution_args._eval_find = lambda name: str(_package(path, name))
+    try:
+        with contextlib.redirect_stderr(noise):
+            return str(xacro.process_file(str(path)).documentElement.toxml())
+    except DescriptionError:
+        raise
+    except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
+        why = " ".join(str(error).split())[:300]
+        raise DescriptionError(f"{path}: xacro cannot expand it: {why}") from error
+    finally:
+        substitution_args._eval_find = own
+
+
+def _package(file: Path, name: str) -> Path:
+    """The folder of a ROS package that a xacro file names."""
+    real = file.resolve()
+    for folder in ros_packages.named(real, name):
+        if folder.is_dir():
+            return folder
+    raise DescriptionError(
+        f"{file}: $(find {name}): there is no package {name!r} (a folder with package.xml) above or beside "
+        "the file, nor on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
+    )
 
 
 def _makers() -> tuple[str | bytes, ...]:

@@ -16,6 +16,7 @@ FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
     {"files", "scratch"},
     {"safe", "cache", "examples"},
+    {"ros_packages"},
     {"anatomy"},
     {"devices"},
     {"description", "dh", "gait", "signals"},

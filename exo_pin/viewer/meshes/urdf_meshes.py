@@ -8,14 +8,13 @@ beside that one, those of ROS's search path, and example-robot-data.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from exo_pin import ros_packages
 from exo_pin.errors import FormatError
-from exo_pin.examples import located
 from exo_pin.viewer.meshes import mesh_files
 from exo_pin.viewer.meshes.solids import Color, Solid
 from exo_pin.viewer.meshes.thinning import shaded, thinned
@@ -24,9 +23,6 @@ _Triple = tuple[float, float, float]
 
 _FINENESS = 280
 """Meshes are thinned to cells of this share of the robot's size: 6 mm for a person's."""
-
-_INNER = ("urdf", "urdfs", "robot", "robots", "model", "models", "xacro")
-"""Names of folders that lie inside a package rather than being it."""
 
 _MOST_TRIANGLES = 3_000_000
 """Triangles that are read at most; what comes then is left away."""
@@ -122,53 +118,18 @@ class Meshes:
         scheme, mark, rest = name.partition("://")
         if mark and scheme == "package":
             package, _, inside = rest.lstrip("/").partition("/")
-            tried = [(root, root / inside) for root in _packages(self.urdf, package)]
+            tried = [(root, root / inside) for root in ros_packages.named(self.urdf, package)]
         elif mark and scheme != "file":
             return None
         else:
-            tried = [(root, self.urdf.parent / (rest if mark else name)) for root in _own(self.urdf)]
+            tried = [
+                (root, self.urdf.parent / (rest if mark else name)) for root in ros_packages.own(self.urdf)
+            ]
         for root, path in tried:
             real = Path(os.path.realpath(path))
             if real.is_relative_to(os.path.realpath(root)) and real.is_file():
                 return real
         return None
-
-
-def _own(urdf: Path) -> Iterator[Path]:
-    """The folders in which a URDF may name files by their place."""
-    yield urdf.parent.parent if urdf.parent.name.lower() in _INNER else urdf.parent
-    for folder in urdf.parents:
-        if (folder / "package.xml").is_file():
-            yield folder
-            return
-
-
-def _packages(urdf: Path, name: str) -> Iterator[Path]:
-    """The folders that a package of that name may be."""
-    if not name or name in (".", ".."):
-        return
-    yield from _around(urdf, name)
-    for root in _search_path("ROS_PACKAGE_PATH"):
-        yield from (folder for folder in (root, root / name) if folder.name == name)
-    for root in _search_path("AMENT_PREFIX_PATH"):
-        yield root / "share" / name
-    if name == "example-robot-data":
-        manifest = located("example-robot-data/package.xml")
-        if manifest is not None:
-            yield manifest.parent
-
-
-def _around(urdf: Path, name: str) -> Iterator[Path]:
-    """The packages of that name that a URDF lies in, or beside."""
-    for folder in urdf.parents:
-        if folder.name == name:
-            yield folder
-        if (folder / name / "package.xml").is_file():
-            yield folder / name
-
-
-def _search_path(variable: str) -> list[Path]:
-    return [Path(root) for root in os.environ.get(variable, "").split(os.pathsep) if root]
 
 
 def _thin(part: mesh_files.MeshPart, scale: _Triple, cell: float, turned: bool) -> Solid:
