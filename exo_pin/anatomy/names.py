@@ -15,6 +15,8 @@ HipOrder = Literal["clinical", "yaw_roll_pitch"]
 """Order of the three hip joints from the pelvis outwards: ISB and gait laboratories, or humanoids."""
 Base = Literal["fixed", "floating"]
 """Whether the pelvis is held in place or moves with six degrees of freedom."""
+KneeBranch = Literal["front", "behind"]
+"""Side of the line from hip to ankle on which a knee bends: in front, as a person's, or as a bird's."""
 EventKind = Literal["heel_strike", "toe_off"]
 """Initial contact of a foot, or the moment it leaves the ground."""
 PlausibilityWord = Literal["plausible", "doubtful"]
@@ -55,11 +57,6 @@ PelvisRotation = Literal["tilt", "list", "rotation"]
 SignPreset = Literal["exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"]
 """Sign convention of a laboratory or a model family."""
 
-Segment = Literal["pelvis", "thigh", "shank", "foot"]
-"""A segment of the body that markers sit on."""
-HipRegression = Literal["davis", "harrington"]
-"""How hip centres follow from the pelvis's markers: Davis 1991 or Harrington 2007."""
-
 SIDES: tuple[Side, ...] = ("left", "right")
 
 MOVEMENTS: tuple[Movement, ...] = (
@@ -71,8 +68,6 @@ MOVEMENTS: tuple[Movement, ...] = (
     "ankle_inversion",
 )
 """Movements of a leg; the name is the positive direction on both sides (hip_rotation: internal)."""
-
-HIP_REGRESSIONS: tuple[HipRegression, ...] = get_args(HipRegression)
 
 SIGN_PRESETS: tuple[SignPreset, ...] = get_args(SignPreset)
 

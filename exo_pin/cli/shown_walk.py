@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
@@ -44,7 +45,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--robot",
         metavar="ROBOT",
-        help="another robot walks instead: a name, .urdf or .toml file (see `exo-pin retarget --help`)",
+        help="another robot walks instead: a name or a file (see `exo-pin retarget --help`)",
     )
     options.add_body(parser)
     options.add_hip_order(parser)
@@ -120,7 +121,11 @@ def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         f"({walk.samples_missed} of {len(gait)} samples missed)"
     )
     notes = [gait.source, note, *_judged(person, gait, verdict)]
-    return viewer.robot_scene(walk, _scene_options(args, body, f"{Path(args.gait).name} on {title}", notes))
+    chosen = _scene_options(args, body, f"{Path(args.gait).name} on {title}", notes)
+    made = viewer.robot_scene(walk, chosen)
+    for found in walk.notes:
+        print(f"note: {show.plain(found)}", file=sys.stderr)
+    return made
 
 
 def _judged(robot: Robot, gait: Gait, verdict: Plausibility) -> list[str]:

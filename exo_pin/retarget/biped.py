@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from exo_pin.anatomy import SIDES
+from exo_pin import description
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.examples import located
 from exo_pin.files import read_text
 from exo_pin.retarget import leg_search, target_file
-from exo_pin.retarget.axes import unit_vector
-from exo_pin.retarget.robot_legs import RobotLeg, robot_leg
+from exo_pin.retarget.both_legs import on_their_branch, read_legs
+from exo_pin.retarget.leg_search import NoPairError, Standing
+from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
-from exo_pin.robot import Robot, load_urdf
+from exo_pin.robot import Robot, load_urdf, urdf_joints
+from exo_pin.robot.urdf_joints import Follower
 
-_PI = repr(math.pi)
+_UPWARD = ("z", "y", "x", "-z", "-y", "-x")
+"""Axes of the root link that may point up, in the order in which they are tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +36,7 @@ class Biped:
         stand: Configuration (nq,) at which it stands.
         rotation: Rotation matrix (3, 3) from the walker's axes (x forward, y left, z up) to the root link's.
         legs: Left and right.
+        follow: The joints that follow others (`<mimic>`), by name.
     """
 
     target: Target
@@ -40,6 +44,7 @@ class Biped:
     stand: Array
     rotation: Array
     legs: tuple[RobotLeg, RobotLeg]
+    follow: Mapping[str, Follower] = field(default_factory=dict)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -58,7 +63,7 @@ class Biped:
 
 
 def find(target: str | Path | Target) -> Target:
-    """The target of a name, or of a file (a URDF, or a TOML record of one); a record is returned as it is.
+    """The target of a name, or of a file (URDF, xacro, or a TOML record); a record is returned as it is.
 
     Raises:
         UnknownNameError: There is no such target.
@@ -74,11 +79,9 @@ def find(target: str | Path | Target) -> Target:
         raise DescriptionError(f"{target}: {UNFIT[str(target).lower()]}")
     if path.suffix.lower() == ".toml":
         return target_file.load(path)
-    if path.suffix.lower() == ".xacro":
-        raise DescriptionError(f"{target} is a xacro; write the URDF first: xacro {path.name} > robot.urdf")
-    if path.suffix.lower() == ".urdf" or path.exists():
-        return Target(path.stem, path)
-    raise UnknownNameError("robot (a name, a .urdf or a .toml record)", str(target), TARGETS)
+    if path.suffix.lower() in (".urdf", ".xacro") or path.exists():
+        return Target(path.name.partition(".")[0], path)
+    raise UnknownNameError("robot (a name, a .urdf, .xacro or .toml file)", str(target), TARGETS)
 
 
 def load(target: str | Path | Target) -> Biped:
@@ -101,27 +104,54 @@ def as_biped(target: Target, robot: Robot) -> Biped:
         UnknownNameError: A joint or link of the record is unknown.
         DescriptionError: It is no robot with two legs.
     """
+    follow = urdf_joints.followers(robot.urdf)
+    known = leg_search.standing(robot, _stand(target, robot, follow), target.locked)
+    rotation, legs = _legs(target, known, follow)
+    own = {name for leg in legs for name in leg.chain}
+    others = [k for k, name in enumerate(robot.joints) if name not in own]
+    columns = [robot.nq - len(robot.joints) + k for k in others]
+    stand = known.stand.copy()
+    stand[columns] = np.clip(stand[columns], robot.lower[others], robot.upper[others])
+    return Biped(target, robot, stand, rotation, legs, follow)
+
+
+def _legs(
+    target: Target, known: Standing, follow: Mapping[str, Follower]
+) -> tuple[Array, tuple[RobotLeg, RobotLeg]]:
+    """The rotation (3, 3) from the walker's axes to the root link's, and the legs; any axis may point up."""
+    refusals = []
+    for up in (target.up,) if target.up else _UPWARD:
+        try:
+            rotation, legs = read_legs(known, follow, target.feet, target.forward, up)
+        except NoPairError as error:
+            refusals.append(error)
+        else:
+            return rotation, on_their_branch(legs)
+    raise refusals[0]
+
+
+def _stand(target: Target, robot: Robot, follow: Mapping[str, Follower]) -> Array:
+    """The configuration (nq,) at which it stands, joints that cannot move at their limits."""
     stand = robot.q(target.stand)
-    feet, up = target.feet, target.up or "z"
-    if len(feet) != 2:
-        feet, up = leg_search.feet_and_up(robot, stand, target.up)
-    left, right = feet
-    front = target.forward or leg_search.forward(robot, stand, (left, right), up)
-    rotation = _rotation(front, up)
-    legs = [
-        robot_leg(robot, side, foot, joints, stand, rotation)
-        for side, foot, joints in zip(
-            SIDES, (left, right), leg_search.leg_joints(robot, (left, right)), strict=True
-        )
-    ]
-    return Biped(target, robot, stand, rotation, (legs[0], legs[1]))
+    for name, low, high in zip(robot.joints, robot.lower, robot.upper, strict=True):
+        if high <= low:
+            stand[robot.column(name)] = low
+    return followed(robot, stand, follow)
 
 
-def _rotation(front: str, up: str) -> Array:
-    x, z = unit_vector(front), unit_vector(up)
-    if abs(x @ z) > 0:
-        raise DescriptionError(f"forward is {front} and up is {up}; they must be square to each other")
-    return np.stack([x, np.cross(z, x), z], axis=1)
+def followed(robot: Robot, q: Array, follow: Mapping[str, Follower]) -> Array:
+    """Configurations (..., nq) with every follower where its leader takes it.
+
+    Args:
+        robot: The robot.
+        q: Configurations (..., nq).
+        follow: The joints that follow others, by name.
+    """
+    q = q.copy()
+    for name, (leader, ratio, offset) in follow.items():
+        if name in robot.joints and leader in robot.joints:
+            q[..., robot.column(name)] = ratio * q[..., robot.column(leader)] + offset
+    return q
 
 
 def _packaged(target: Target) -> Path:
@@ -133,34 +163,12 @@ def _packaged(target: Target) -> Path:
 
 
 def _prepared(target: Target, path: Path) -> str:
-    """The URDF's text with the record's limits, all moving joints revolute or prismatic and limited."""
-    text = read_text(path)
+    """The URDF's text with the record's limits."""
+    text = description.expanded(path) if path.suffix.lower() == ".xacro" else read_text(path)
     try:
         root = ET.fromstring(text)
     except ET.ParseError as error:
         raise DescriptionError(f"{path} is no URDF: {error}") from None
     if root.tag != "robot":
         raise DescriptionError(f"{path} is no URDF: its root element is <{root.tag}>, not <robot>")
-    joints = {str(joint.get("name")): joint for joint in root.findall("joint")}
-    for joint in joints.values():
-        _bounded(joint)
-    for name, (low, high) in target.limits.items():
-        limit = joints[name].find("limit") if name in joints else None
-        if limit is None:
-            raise UnknownNameError("joint with limits", name, joints)
-        limit.set("lower", repr(low))
-        limit.set("upper", repr(high))
-    return ET.tostring(root, encoding="unicode")
-
-
-def _bounded(joint: ET.Element) -> None:
-    """Limit a continuous joint to half a revolution each way; fix a floating or planar one."""
-    if joint.get("type") in ("floating", "planar"):
-        joint.set("type", "fixed")
-    elif joint.get("type") == "continuous":
-        joint.set("type", "revolute")
-        limit = joint.find("limit")
-        if limit is None:
-            limit = ET.SubElement(joint, "limit", effort="0", velocity="0")
-        limit.set("lower", f"-{_PI}")
-        limit.set("upper", _PI)
+    return urdf_joints.with_limits(text, target.limits) if target.limits else text

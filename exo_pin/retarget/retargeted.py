@@ -10,18 +10,24 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import Body
+from exo_pin.anatomy.names import Movement
 from exo_pin.arrays import Array, Mask
-from exo_pin.demand import RangeDemand, range_demands
+from exo_pin.demand import PeakDemand, RangeDemand, peak_demands, range_demands
 from exo_pin.files import json_number
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import angle_of
+from exo_pin.gait.time_series import derivative
 from exo_pin.kinematics import poses
 from exo_pin.retarget.biped import Biped
+from exo_pin.retarget.feet import largest_step
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
 
 _REACHED = 1e-5
 """A foot further from its goal than this is missed [m, rad]."""
+
+_ROUNDING = math.radians(0.05)
+"""A step that exceeds the largest one by less is none: the solver weighs it against the ankle's place."""
 
 
 class LimitUse(NamedTuple):
@@ -30,10 +36,12 @@ class LimitUse(NamedTuple):
     Attributes:
         used: Values foot by foot, within the limits.
         copied: Values joint by joint, not clipped to the limits.
+        speed: Velocities foot by foot against the file's limit, infinite where it has none [rad/s].
     """
 
     used: RangeDemand
     copied: RangeDemand
+    speed: PeakDemand
 
 
 class FootErrors(NamedTuple):
@@ -92,6 +100,7 @@ class Retargeted:
         ankles: Goals of the ankles (n, 2, 3), in the walker's axes at the robot's root [m].
         attitudes: Goals of the feet's rotation (n, 2, 3, 3), in the same axes.
         body: Whose walk it is.
+        notes: What to know about the robot's description and this walk on it, a plain sentence each.
     """
 
     biped: Biped
@@ -104,6 +113,7 @@ class Retargeted:
     ankles: Array
     attitudes: Array
     body: Body
+    notes: tuple[str, ...] = ()
 
     @property
     def target(self) -> Target:
@@ -143,6 +153,16 @@ class Retargeted:
         return np.asarray((position > _REACHED) | ((rotation > _REACHED) & any_pose))
 
     @property
+    def missed_places(self) -> Mask:
+        """Ankles (n, 2) that were not brought to their places."""
+        return self.errors.position > _REACHED
+
+    @property
+    def jumps(self) -> Mask:
+        """Which joints of the legs (k,) turn further between two samples than a walk asks for."""
+        return self.largest_steps > largest_step(self.gait) + _ROUNDING
+
+    @property
     def samples_missed(self) -> int:
         """Number of samples in which a foot was not reached."""
         return int(self.missed.any(axis=1).sum())
@@ -151,7 +171,24 @@ class Retargeted:
     def limit_use(self) -> dict[str, LimitUse]:
         """By leg joint, its values foot by foot and joint by joint against its limits."""
         used, copied = (range_demands(self.robot, q) for q in (self.q, self.copied))
-        return {name: LimitUse(used[name], copied[name]) for name in self.joints}
+        period = self.gait.duration if self.gait.periodic else None
+        rates = derivative(self.time, self.robot.angles(self.q), 1, period)
+        stated = np.where(self.robot.velocity > 0, self.robot.velocity, np.inf)
+        speeds = peak_demands(self.robot.joints, rates, stated)
+        return {name: LimitUse(used[name], copied[name], speeds[name]) for name in self.joints}
+
+    @property
+    def movements(self) -> dict[str, Movement]:
+        """By leg joint, the movement of a person's leg that it makes."""
+        pairs = (zip(leg.joints, leg.movements, strict=True) for leg in self.biped.legs)
+        return {joint: movement for leg in pairs for joint, movement in leg}
+
+    @property
+    def largest_steps(self) -> Array:
+        """What each joint of the legs (k,) turns by at most between two samples [rad]."""
+        q = self.q[:, [self.robot.column(name) for name in self.joints]]
+        steps = np.diff(q, axis=0, append=q[:1] if self.gait.periodic else q[-1:])
+        return np.asarray(np.abs(steps).max(axis=0))
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -168,15 +205,21 @@ class Retargeted:
             "joint_by_joint": self.copied_errors.facts(),
             "joints": {
                 name: {
+                    "movement": self.movements[name],
                     "limits_deg": _degrees(used.available),
                     "used_deg": _degrees((used.lowest, used.highest)),
                     "limit_use": json_number(used.use),
                     "asked_deg": _degrees((copied.lowest, copied.highest)),
                     "samples_outside": copied.samples_outside,
+                    "speed_rad_per_s": json_number(speed.peak),
+                    "speed_limit_rad_per_s": _finite(speed.available),
+                    "speed_use": json_number(speed.use) if _finite(speed.available) else None,
                 }
-                for name, (used, copied) in self.limit_use.items()
+                for name, (used, copied, speed) in self.limit_use.items()
             },
+            "largest_step_deg": math.degrees(self.largest_steps.max()),
             "remarks": self.target.remarks,
+            "notes": list(self.notes),
         }
 
     def _errors(self, q: Array) -> FootErrors:
@@ -188,6 +231,11 @@ class Retargeted:
         R = rotation.T @ T[..., :3, :3] @ np.swapaxes(rest, -1, -2)
         off = np.swapaxes(self.attitudes, -1, -2) @ R
         return FootErrors(np.linalg.norm(ankles - self.ankles, axis=-1), angle_of(off))
+
+
+def _finite(value: float) -> float | None:
+    """A limit for JSON; None where there is none."""
+    return value if math.isfinite(value) else None
 
 
 def _degrees(pair: tuple[float, float]) -> list[float]:

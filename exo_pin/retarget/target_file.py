@@ -21,6 +21,7 @@ _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
     "up": (_AXIS, lambda x: x in SIGNED_AXES),
     "stand_deg": ("a table of joint = angle", lambda x: _is_table(x, _is_number)),
     "limits_deg": ("a table of joint = [lower, upper]", lambda x: _is_table(x, _is_range)),
+    "locked": ("a list of names of joints", lambda x: _is_list(x, str)),
     "title": (_TEXT, lambda x: isinstance(x, str)),
     "remarks": (_TEXT, lambda x: isinstance(x, str)),
 }
@@ -53,6 +54,7 @@ def load(path: str | Path) -> Target:
         up=values.get("up", ""),
         stand=MappingProxyType(stand),
         limits=MappingProxyType(limits),
+        locked=tuple(values.get("locked", ())),
         title=values.get("title", ""),
         remarks=values.get("remarks", ""),
     )
@@ -64,6 +66,10 @@ def _is_number(x: object) -> bool:
 
 def _is_pair(x: object, kind: type) -> bool:
     return isinstance(x, list) and len(x) == 2 and all(isinstance(part, kind) for part in x)
+
+
+def _is_list(x: object, kind: type) -> bool:
+    return isinstance(x, list) and all(isinstance(part, kind) for part in x)
 
 
 def _is_range(x: object) -> bool:

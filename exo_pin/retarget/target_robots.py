@@ -24,6 +24,7 @@ class Target:
         up: Axis of the root link that points up; empty: away from the feet.
         stand: Joint angles [rad] at which the robot stands on straight legs with level feet; zero for others.
         limits: Joint limits [rad] that replace the file's.
+        locked: Joints that are held as the robot stands.
         title: Full name of the robot.
         paint: Colour and opacity (RGBA) to draw it in; None: its own colours.
         licence: Owner and licence of its files, as example-robot-data states them.
@@ -37,6 +38,7 @@ class Target:
     up: str = ""
     stand: Mapping[str, float] = field(default_factory=dict)
     limits: Mapping[str, Pair] = field(default_factory=dict)
+    locked: tuple[str, ...] = ()
     title: str = ""
     paint: tuple[float, float, float, float] | None = None
     licence: str = ""
@@ -84,8 +86,7 @@ _G1 = Target(
     feet=("left_ankle_roll_link", "right_ankle_roll_link"),
     title="G1 (Unitree)",
     licence="Unitree, BSD-3-Clause",
-    remarks="The hip's roll and yaw axes are inclined by 10 degrees and its three axes do not meet: the "
-    "paths are scaled to what the legs reach in every direction.",
+    remarks="The hip's roll and yaw axes are inclined by 10 degrees and its three axes do not meet.",
 )
 _SIMPLE_HUMANOID = Target(
     "simple_humanoid",

@@ -21,6 +21,7 @@ _HEAD = (
     "paths",
     "foot by foot: ankle, foot missed",
     "nearest to a limit",
+    "largest speed / limit",
     "joint by joint: ankle off",
     "visuals",
     "licence of its files",
@@ -55,6 +56,9 @@ def visuals(urdf: str) -> str:
 
 def _row(walk: Retargeted) -> tuple[str, ...]:
     shares = {name: round(use.used.use, 3) for name, use in walk.limit_use.items()}
+    fastest, speed = max(
+        ((name, use.speed.use) for name, use in walk.limit_use.items()), key=lambda pair: pair[1]
+    )
     tightest = max(shares, key=lambda name: shares[name])
     position, rotation = 1e3 * walk.errors.largest_position, math.degrees(walk.errors.largest_rotation)
     return (
@@ -64,6 +68,7 @@ def _row(walk: Retargeted) -> tuple[str, ...]:
         f"{sum(walk.scale) / 2:.2f}",
         f"{_small(position, 'mm')}, {_small(rotation, 'deg')}",
         f"`{tightest}` {100 * walk.limit_use[tightest].used.use:.0f} %",
+        f"`{fastest}` {speed:.1f}" if speed else "-",
         f"{1e3 * walk.copied_errors.largest_position:.0f} mm",
         visuals(walk.robot.urdf),
         walk.target.licence,

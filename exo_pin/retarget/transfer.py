@@ -8,48 +8,42 @@ and of the ankle is decomposed about the robot's own axes, whatever their order.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import about
 from exo_pin.kinematics import poses
 from exo_pin.retarget.axes import angles_about
-from exo_pin.retarget.biped import Biped, as_biped, load
+from exo_pin.retarget.biped import Biped, as_biped, followed, load
+from exo_pin.retarget.feet import FeetTask, foot_by_foot
+from exo_pin.retarget.findings import findings
+from exo_pin.retarget.leg_motion import ANKLE_FIRST, BALANCED
 from exo_pin.retarget.retargeted import Retargeted
-from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot, load_robot, load_urdf
 
 RobotSource = str | Path | Target | Robot | Biped
 
-_SIX_JOINTS = ik.Auto(tolerance=1e-6, dls=ik.Dls(restarts=0))
-"""A micrometre and a microradian suffice for a robot's joints; the copied angles are a good start."""
-
-_FEWER_JOINTS = ik.Dls(tolerance=1e-9, restarts=0, warm_start=False)
-"""For legs that cannot reach every attitude: least squares for each sample from the copied angles."""
-
-_SHRINKAGES = (1.0, 0.99, 0.98, 0.97, 0.96, 0.95)
-"""Factors on the paths, tried in this order where limits, or hip axes without a common point, forbid them."""
-
-_ROTATION_WEIGHT = 1e-3
-"""Weight of the attitude against the place, for legs that cannot reach both."""
-
-_ARM = 0.1
-"""Distance from the ankle of the points that stand for the attitude [m]."""
+_LEAST_SHARE, _SHARES = 0.95, (0.99, 0.98, 0.97, 0.96)
+"""Factors on the paths where limits, or hip axes that do not meet, forbid them: the least, those between."""
 
 
 def retarget(gait: Gait, robot: RobotSource = "talos", body: Body | None = None) -> Retargeted:
     """Retarget a walk to another robot.
 
+    Where the legs cannot do all of it, the attitude of the feet is given up before joints jump, and the
+    ankles' places last; `Retargeted.notes` says so.
+
     Args:
         gait: The walk.
-        robot: One of `TARGETS` by name, the path of a URDF or of a TOML record, a record, a robot from
-            `load_urdf`, or a `Biped`.
+        robot: One of `TARGETS` by name, the path of a URDF, a xacro file or a TOML record, a record, a robot
+            from `load_urdf`, or a `Biped`.
         body: Whose walk it is; `Body.from_stature()` if left out.
 
     Raises:
@@ -59,21 +53,54 @@ def retarget(gait: Gait, robot: RobotSource = "talos", body: Body | None = None)
     """
     biped = _biped(robot)
     walker = load_robot(body)
+    assert walker.body is not None  # load_robot made it
     lean = _lean(gait)
     T = _links(gait, walker, lean)
     copied = _copied(gait, biped, T[..., :3, :3])
-    assert walker.body is not None  # load_robot made it
-    own = [walker.body.leg(side) for side in SIDES]
+    body = walker.body
+    own = [body.leg(side) for side in SIDES]
     ratios = [leg.reach / (size.thigh + size.shank) for leg, size in zip(biped.legs, own, strict=True)]
-    best: Retargeted | None = None
-    for share in _SHRINKAGES:
-        tried = _solved(gait, walker, biped, T, (share * ratios[0], share * ratios[1]), copied, lean)
-        if best is None or tried.missed.sum() < best.missed.sum():
-            best = tried
-        if not best.missed.any():
-            break
-    assert best is not None  # there is a first share
-    return best
+
+    def made(share: float, weights: tuple[float, ...]) -> Retargeted:
+        scale = share * ratios[0], share * ratios[1]
+        ankles, attitudes = _goals(biped, T, scale)
+        return Retargeted(
+            biped=biped,
+            gait=gait,
+            q=foot_by_foot(FeetTask(biped, gait, ankles, attitudes), copied, weights),
+            copied=copied,
+            base=_base(gait, walker, biped, scale, lean),
+            lean=lean,
+            scale=scale,
+            ankles=ankles,
+            attitudes=attitudes,
+            body=body,
+        )
+
+    found = _best(made)
+    return replace(found, notes=findings(found))
+
+
+def _best(made: Callable[[float, tuple[float, ...]], Retargeted]) -> Retargeted:
+    """The walk on the largest paths that are reached; else with the ankles placed; else as near as can be."""
+    whole, small = made(1.0, ANKLE_FIRST), None
+    for enough in (_reached, _placed):
+        if enough(whole):
+            return whole
+        small = small or made(_LEAST_SHARE, ANKLE_FIRST)
+        if enough(small):
+            between = (made(share, ANKLE_FIRST) for share in _SHARES)
+            return next(filter(enough, between), small)
+    near = [made(share, BALANCED) for share in (1.0, _LEAST_SHARE)]
+    return min(near, key=lambda tried: tried.errors.position_rms)
+
+
+def _reached(walk: Retargeted) -> bool:
+    return not walk.missed.any() and not walk.jumps.any()
+
+
+def _placed(walk: Retargeted) -> bool:
+    return not walk.missed_places.any() and not walk.jumps.any()
 
 
 def joint_by_joint(gait: Gait, biped: Biped, body: Body | None = None) -> Array:
@@ -119,57 +146,11 @@ def _tilt(lean: float) -> Array:
     return T
 
 
-def _solved(
-    gait: Gait,
-    walker: Robot,
-    biped: Biped,
-    T: Array,
-    scale: tuple[float, float],
-    copied: Array,
-    lean: float,
-) -> Retargeted:
-    """Foot by foot, the paths from hip to ankle scaled."""
-    assert walker.body is not None  # load_robot made it
-    ankles = np.stack(
-        [
-            leg.hip + s * (T[:, k, 2] - T[:, k, 0])[:, :3, 3]
-            for k, (leg, s) in enumerate(zip(biped.legs, scale, strict=True))
-        ],
-        axis=1,
-    )
-    R = T[:, :, 2, :3, :3]
-    robot = biped.robot
-    start = np.array(copied)
-    low = robot.nq - len(robot.joints)
-    start[:, low:] = np.clip(start[:, low:], robot.lower, robot.upper)
-    goals = {leg.foot: _goal(biped, leg, ankles[:, k], R[:, k]) for k, leg in enumerate(biped.legs)}
-    six_joints = all(leg.reaches_any_pose for leg in biped.legs)
-    q = ik.track(robot, goals, start, settings=_SIX_JOINTS if six_joints else _FEWER_JOINTS).q
-    return Retargeted(
-        biped=biped,
-        gait=gait,
-        q=q,
-        copied=copied,
-        base=_base(gait, walker, biped, scale, lean),
-        lean=lean,
-        scale=scale,
-        ankles=ankles,
-        attitudes=R,
-        body=walker.body,
-    )
-
-
-def _goal(biped: Biped, leg: RobotLeg, ankle: Array, R: Array) -> ik.Points | Array:
-    """Goals (n, 4, 4) of the foot's link; for legs of fewer joints its ankle, and weak points around it."""
-    rotation = biped.rotation
-    T = np.tile(np.eye(4), (len(R), 1, 1))
-    T[:, :3, :3] = rotation @ R @ leg.T[:3, :3]
-    T[:, :3, 3] = ankle @ rotation.T - np.einsum("nij,j->ni", T[:, :3, :3], leg.ankle_in_foot)
-    if leg.reaches_any_pose:
-        return T
-    local = leg.ankle_in_foot + np.vstack([np.zeros(3), _ARM * np.eye(3)])
-    points = local @ np.swapaxes(T[:, :3, :3], -1, -2) + T[:, None, :3, 3]
-    return ik.Points(local, points, (1.0, *3 * (_ROTATION_WEIGHT,)))
+def _goals(biped: Biped, T: Array, scale: tuple[float, float]) -> tuple[Array, Array]:
+    """Goals of the ankles (n, 2, 3), the paths from hip to ankle scaled, and of the feet's rotation."""
+    pairs = enumerate(zip(biped.legs, scale, strict=True))
+    ankles = [leg.hip + s * (T[:, k, 2] - T[:, k, 0])[:, :3, 3] for k, (leg, s) in pairs]
+    return np.stack(ankles, axis=1), T[:, :, 2, :3, :3]
 
 
 def _copied(gait: Gait, biped: Biped, R: Array) -> Array:
@@ -182,8 +163,10 @@ def _copied(gait: Gait, biped: Biped, R: Array) -> Array:
         parts = [angles_about(leg.axes[:knee], thigh), bent[:, None]]
         if knee + 1 < len(leg.joints):
             parts.append(angles_about(leg.axes[knee + 1 :], np.swapaxes(shank, -1, -2) @ foot))
-        q[:, [biped.robot.column(joint) for joint in leg.joints]] += np.concatenate(parts, axis=1)
-    return q
+        shared = leg.drive.sum(axis=0)  # a joint and its followers make its movement together
+        columns = [biped.robot.column(joint) for joint in leg.joints]
+        q[:, columns] += np.concatenate(parts, axis=1) / np.where(shared == 0, 1.0, shared)
+    return followed(biped.robot, q, biped.follow)
 
 
 def _base(gait: Gait, walker: Robot, biped: Biped, scale: tuple[float, float], lean: float) -> Array:

@@ -87,9 +87,9 @@ def test_foot_by_foot_reaches_every_foot_within_the_limits(walked, name):
     assert result.copied_errors[1].max() <= ROUNDED
     result.robot.check_limits(result.q)
     assert result.samples_missed == 0
-    assert max(used.use for used, _ in result.limit_use.values()) <= 1 + 1e-9
+    assert max(uses.used.use for uses in result.limit_use.values()) <= 1 + 1e-9
     assert not any(
-        copied.samples_outside for _, copied in result.limit_use.values()
+        uses.copied.samples_outside for uses in result.limit_use.values()
     )  # as docs/robots.md says
 
 

@@ -159,11 +159,6 @@ def test_quadrupeds_arms_wheels_and_flying_robots_are_no_walkers(name):
     assert result.missed.all()  # PR2's arms hang down like legs, and cannot do what legs do
 
 
-def test_a_xacro_is_not_a_urdf():
-    with pytest.raises(DescriptionError, match="xacro robot"):
-        load("robot.urdf.xacro")
-
-
 AXES = {
     "pitch roll yaw": [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
     "yaw roll pitch, signs turned": [[0, 0, -1], [1, 0, 0], [0, -1, 0]],

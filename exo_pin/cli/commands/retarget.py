@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,14 +18,15 @@ if TYPE_CHECKING:
 _EXAMPLES = """examples:
   exo-pin retarget --robot talos -o joints.csv
   exo-pin retarget walk.mot --robot icub --json
-  exo-pin retarget --robot my_robot.urdf     any URDF with two legs
+  exo-pin retarget --robot my_robot.urdf     any URDF (or xacro file) with two legs
   exo-pin retarget --robot my_robot.toml     a record of it: feet, front, limits (docs/robots.md)
   exo-pin replay --robot talos               watch it walk
 
 robots: {}. Foot by foot: the feet's paths, scaled to the robot's legs, through inverse kinematics within its
 limits; the file holds these angles ("used"; "use" is how far from mid-range to a limit: 100 % is on it).
 Joint by joint ("copied"): the walk's own angles, hips and ankles through their rotation; "outside" counts the
-samples in which a limit forbids them.
+samples in which a limit forbids them. "speed / limit": the largest speed over the file's velocity limit.
+Notes on stderr say what a leg cannot do: it gives up the foot's attitude first, the ankle's place last.
 exit code 1: a foot was missed by more than 0.01 mm or 1e-5 rad (legs of fewer than six joints: 0.01 mm)"""
 
 
@@ -35,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES.format(", ".join(TARGETS))
     options.add_gait(parser)
     parser.add_argument(
-        "--robot", default="talos", metavar="ROBOT", help="name, .urdf or .toml file (default: talos)"
+        "--robot", default="talos", metavar="ROBOT", help="name, .urdf, .xacro or .toml file (default: talos)"
     )
     parser.add_argument(
         "--table", action="store_true", help="all known robots in one Markdown table (of docs/robots.md)"
@@ -57,6 +59,8 @@ def run(args: argparse.Namespace) -> int:
         print(markdown(gait, body), end="")
         return 0
     result = retarget(gait, args.robot, body)
+    for note in result.notes:
+        print(f"note: {show.plain(note)}", file=sys.stderr)
     if args.json:
         show.as_json(result.facts())
     else:
@@ -79,8 +83,10 @@ def _print(result: Retargeted, name: str) -> None:
         ["joint by joint: foot's angle", _rotation(copied)],
     ]
     show.table(f"{name} on {result.target.title or result.target.name}", ["foot by foot", ""], rows)
-    head = ["joint", "limits deg", "used deg", "use", "copied deg", "outside"]
-    show.table("Joints", head, [_line(joint, use) for joint, use in result.limit_use.items()])
+    head = ["joint", "stands for", "limits deg", "used deg", "use", "copied deg", "outside"]
+    head += ["speed rad/s", "speed / limit"]
+    uses = result.limit_use.items()
+    show.table("Joints", head, [_line(joint, result.movements[joint], use) for joint, use in uses])
     if result.target.remarks:
         print(result.target.remarks)
 
@@ -95,17 +101,20 @@ def _rotation(errors: FootErrors) -> str:
     return f"{math.degrees(errors.rotation_rms):.3f}, {math.degrees(errors.largest_rotation):.3f} deg"
 
 
-def _line(joint: str, use: LimitUse) -> list[str]:
-    used, copied = use
+def _line(joint: str, movement: str, use: LimitUse) -> list[str]:
+    used, copied, speed = use
     share = "-" if math.isnan(used.use) else f"{100 * used.use:.0f} %"
     limits, taken = _degrees(*used.available), _degrees(used.lowest, used.highest)
     return [
-        joint,
+        show.plain(joint),
+        movement.replace("_", " "),
         limits,
         taken,
         share,
         _degrees(copied.lowest, copied.highest),
         str(copied.samples_outside or "-"),
+        f"{speed.peak:.2f}",
+        f"{speed.use:.2f}" if math.isfinite(speed.available) else "-",
     ]
 
 

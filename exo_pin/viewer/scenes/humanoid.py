@@ -157,6 +157,7 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
         f"{degrees(errors.largest_rotation):.1f} degrees at most; {lean}. "
         "Dashed: the person's angles joint by joint.",
         target.remarks,
+        *(f"{note[:1].upper()}{note[1:]}." for note in result.notes),
         f"Its meshes: {target.licence}, thinned." if target.licence and meshes.triangles else "",
     ]
     if tree.skipped:
