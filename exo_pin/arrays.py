@@ -1,7 +1,11 @@
-"""The types of arrays that signatures name."""
+"""The types of arrays that signatures name, and arrays that live outside the host's memory (CuPy)."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 """Numbers; the shape and the unit stand in the docstring."""
@@ -9,3 +13,39 @@ Mask = NDArray[np.bool_]
 """Truth values, one for each sample or element."""
 Index = NDArray[np.int64]
 """Positions in another array."""
+
+Entry = TypeVar("Entry", bound=np.generic)
+_CPU = 1  # DLPack's number of the host (dlpack.h, DLDeviceType)
+
+
+def is_remote(values: Any) -> bool:
+    """Whether an array lives on an accelerator and takes NumPy's functions there (CuPy's arrays do)."""
+    if isinstance(values, np.ndarray) or not hasattr(values, "__array_function__"):
+        return False
+    return hasattr(values, "__dlpack_device__") and values.__dlpack_device__()[0] != _CPU
+
+
+def as_floats(values: ArrayLike) -> Array:
+    """Numbers in double precision, left where they live.
+
+    Raises:
+        TypeError: The values are no numbers.
+        ValueError: The rows have different lengths, or a text is no number.
+    """
+    if is_remote(values):
+        remote: Any = values
+        return np.asarray(remote, dtype=float, like=remote)
+    return np.asarray(values, dtype=float)
+
+
+def beside(values: NDArray[Entry], other: Any) -> NDArray[Entry]:
+    """An array where another one lives: the same array if it is there already, else a copy."""
+    if is_remote(other):
+        return values if is_remote(values) else np.asarray(values, like=other)
+    return to_host(values)
+
+
+def to_host(values: NDArray[Entry]) -> NDArray[Entry]:
+    """An array in the host's memory: the same one for NumPy, a copy from an accelerator."""
+    remote: Any = values
+    return remote.get() if is_remote(values) else values

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.arrays import Array, Index
+from exo_pin.arrays import Array, Index, as_floats, beside
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
@@ -81,19 +81,21 @@ class SolutionBuffer:
     @classmethod
     def blank(cls, task: Problem) -> SolutionBuffer:
         """Unused joints at rest, everything else empty."""
-        n = task.n
-        q = np.empty((n, task.robot.nq))
-        q[:] = task.rest
-        errors = np.full((2, n, len(task.frames)), np.nan)
-        room = np.full((n, len(task.frames)), np.nan)
-        return cls(q, errors, np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int8), room)
+        n, like = task.n, task.goals[0].p
+        q = np.empty((n, task.robot.nq), like=like)
+        q[:] = beside(task.rest, like)
+        errors = np.empty((2, n, len(task.frames)), like=like)
+        room = np.empty((n, len(task.frames)), like=like)
+        errors[:], room[:] = np.nan, np.nan  # CuPy's `full` does not take what NumPy's hands on
+        steps, solver = np.zeros(n, dtype=np.int64, like=like), np.zeros(n, dtype=np.int8, like=like)
+        return cls(q, errors, steps, solver, room)
 
     def track(self, task: Problem, tolerance: float) -> Track:
         """The finished answer."""
         lower, upper = np.full(task.robot.nq, -np.inf), np.full(task.robot.nq, np.inf)
         joints = slice(task.robot.nq - len(task.robot.joints), None)
         lower[joints], upper[joints] = task.robot.lower, task.robot.upper
-        turned = np.array([goal.R is not None for goal in task.goals])
+        turned = [f for f, goal in enumerate(task.goals) if goal.R is not None]
         converged = (self.errors[0] <= tolerance).all(axis=1)
         converged &= (self.errors[1][:, turned] <= tolerance).all(axis=1)
         return Track(
@@ -106,8 +108,8 @@ class SolutionBuffer:
             reach_slack=self.slack,
             solver=self.solver,
             solvers=SOLVED_BY,
-            lower=lower,
-            upper=upper,
+            lower=beside(lower, self.q),
+            upper=beside(upper, self.q),
         )
 
 
@@ -127,7 +129,7 @@ def problem(
         DescriptionError: Shapes, numbers or poses are wrong; the message names frame and sample.
     """
     held = None if base is None else _base(base)
-    carry: Array | None = None if held is None else np.asarray(robot.placement @ np.linalg.inv(held))
+    carry: Array | None = None if held is None else beside(robot.placement, held) @ np.linalg.inv(held)
     goals, n = check(robot, targets, carry)
     base_moves = robot.base == "floating" and held is None
     groups = robot.subtrees(tuple(goal.frame for goal in goals), base_moves=base_moves)
@@ -139,10 +141,11 @@ def problem(
 
 
 def _base(base: npt.ArrayLike) -> Array:
-    T = np.asarray(base, dtype=float)
-    if T.shape == (4, 4):
-        return np.asarray(pose_array("base", T[None])[0])
-    return pose_array("base", T)
+    T = as_floats(base)
+    if T.shape != (4, 4):
+        return pose_array("base", T)
+    one: Array = pose_array("base", T[None])[0]
+    return one
 
 
 def _start(
@@ -150,7 +153,7 @@ def _start(
 ) -> tuple[Array, Array]:
     """Configuration of the joints that move no target, and seed: mid-range where there is no q0."""
     if q0 is not None:
-        q = np.asarray(q0, dtype=float)
+        q = as_floats(q0)
         if q.shape not in ((robot.nq,), (n, robot.nq)):
             raise DescriptionError(f"q0 has shape {q.shape}; ({robot.nq},) or ({n}, {robot.nq}) is accepted")
         if not np.isfinite(q).all():

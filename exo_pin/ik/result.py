@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.arrays import Array, Index, Mask
+from exo_pin.arrays import Array, Index, Mask, to_host
 
 _AT_LIMIT = 1e-9
 """A joint this close to its limit lies on it [rad]: rounding only."""
@@ -61,7 +61,7 @@ class Track:
     @property
     def answered_by(self) -> list[str]:
         """Name of the solver that answered each sample."""
-        return [self.solvers[k] for k in self.solver]
+        return [self.solvers[k] for k in to_host(self.solver)]
 
     def __getitem__(self, k: int) -> Solution:
         """One sample."""
@@ -74,7 +74,7 @@ class Track:
             converged=bool(self.converged[k]),
             active_limits=self.active_limits[k],
             reach_slack=self.reach_slack[k],
-            solver=self.solvers[self.solver[k]],
+            solver=self.solvers[int(self.solver[k])],
         )
 
 

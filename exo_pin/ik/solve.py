@@ -14,6 +14,7 @@ from exo_pin.ik.least_squares import dls
 from exo_pin.ik.leg import batch
 from exo_pin.ik.leg.geometry import approximate_geometry, exact_geometry
 from exo_pin.ik.problem import Problem, SolutionBuffer, problem
+from exo_pin.ik.remote import copied_back, on_host, remote_array, stays_remote
 from exo_pin.ik.result import Solution, Track
 from exo_pin.ik.settings import Auto, ClosedForm, Dls, Settings
 from exo_pin.ik.targets import Points, Pose, Position, Target
@@ -37,6 +38,8 @@ def track(
     Args:
         robot: The robot.
         targets: By name of a frame: T_world_frame (n, 4, 4), or `Pose`, `Position`, `Points` with weights.
+            CuPy's arrays are answered by CuPy's arrays: the closed form runs where they are, and samples
+            that it does not solve are answered on the host and copied back.
         q0: Where to start: (nq,) for the first sample, (n, nq) for every sample its own; mid-range if left
             out. Joints that move no target keep its values (zero if left out).
         base: T_world_pelvis (4, 4) or (n, 4, 4), as in `exo_pin.kinematics.poses`; the robot's own placement
@@ -50,7 +53,10 @@ def track(
         UnknownNameError: A frame is unknown.
         DescriptionError: A shape, number or matrix is wrong; the message names the target and the sample.
     """
-    return _solver(settings)(problem(robot, targets, q0, base), settings)
+    solver, like = _solver(settings), remote_array(targets)
+    if like is None or stays_remote(robot, targets, settings):
+        return solver(problem(robot, targets, q0, base), settings)
+    return copied_back(solver(problem(robot, on_host(targets), q0, base), settings), like)
 
 
 def solve(

@@ -9,15 +9,14 @@ from math import isfinite
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.arrays import Array, Index
+from exo_pin.arrays import Array, Index, as_floats, beside, is_remote
+from exo_pin.chunks import for_chunks
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 
 _ORTHONORMAL = 1e-6
 """Largest `deviation` from a pose that passes as rounding; what passes is straightened."""
 _EXACT = 1e-13  # a rotation this good needs no straightening
-CHUNK = 6000
-"""Samples worked on at once: what stays in a core's cache."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +114,10 @@ def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> t
     n = next(iter(counts.values()))
     if any(count != n for count in counts.values()):
         raise DescriptionError(f"the targets have different numbers of samples: {counts}")
+    if len({is_remote(goal.p) for goal in goals}) > 1:
+        raise DescriptionError(
+            "some targets are arrays of NumPy, others of an accelerator; one kind is accepted"
+        )
     return goals, n
 
 
@@ -127,15 +130,15 @@ def pose_array(name: str, T: npt.ArrayLike) -> Array:
     T = _numbers(name, T)
     if T.ndim != 3 or T.shape[1:] != (4, 4):
         raise DescriptionError(f"{name}: poses have shape {T.shape}; (n, 4, 4) is accepted")
-    worst = 0.0
-    for a in range(0, len(T), CHUNK):
-        off = deviation(T[a : a + CHUNK])
-        worst = max(worst, float(off.max()))
-        if not worst <= _ORTHONORMAL:
-            _finite(name, T)
-            k = a + int(np.argmax(~(off <= _ORTHONORMAL)))
-            raise DescriptionError(f"{name}, frame {k}: not a pose (a rotation matrix and last row 0 0 0 1)")
-    return straightened(T) if worst > _EXACT else T
+    worst: list[float] = []
+    for_chunks(len(T), T, lambda part: worst.append(float(deviation(T[part]).max())))
+    if all(off <= _EXACT for off in worst):
+        return T
+    if not all(off <= _ORTHONORMAL for off in worst):
+        _finite(name, T)
+        k = int(np.argmax(deviation(T) > _ORTHONORMAL))
+        raise DescriptionError(f"{name}, frame {k}: not a pose (a rotation matrix and last row 0 0 0 1)")
+    return straightened(T)
 
 
 def deviation(T: Array) -> Array:
@@ -144,10 +147,10 @@ def deviation(T: Array) -> Array:
     The third axis is compared with the cross product of the others: fewer products than R^T R and a
     determinant. Infinite where a number is not finite.
     """
-    x = np.ascontiguousarray(T.reshape(-1, 16).T)
+    x = np.ascontiguousarray(T.reshape(-1, 16).T, like=T)
     (a0, a1, a2), (b0, b1, b2), (c0, c1, c2) = ((x[j], x[4 + j], x[8 + j]) for j in range(3))
     with np.errstate(all="ignore"):
-        off = abs(a0 * a0 + a1 * a1 + a2 * a2 - 1.0)
+        off: Array = abs(a0 * a0 + a1 * a1 + a2 * a2 - 1.0)
         off += abs(b0 * b0 + b1 * b1 + b2 * b2 - 1.0)
         off += abs(a0 * b0 + a1 * b1 + a2 * b2)
         off += abs(a1 * b2 - a2 * b1 - c0)
@@ -155,7 +158,7 @@ def deviation(T: Array) -> Array:
         off += abs(a0 * b1 - a1 * b0 - c2)
         off += abs(x[12]) + abs(x[13]) + abs(x[14]) + abs(x[15] - 1.0)
         off[~np.isfinite(off + x[3] + x[7] + x[11])] = np.inf
-    return np.asarray(off)
+    return off
 
 
 def is_pose(T: list[float]) -> bool:
@@ -170,13 +173,12 @@ def is_pose(T: list[float]) -> bool:
 def straightened(T: Array) -> Array:
     """Nearly exact rotations made exact to rounding (Newton steps of the polar decomposition)."""
     R = T[:, :3, :3]
+    unit = beside(np.eye(3), T)
     for _ in range(2):
         gram = R.swapaxes(1, 2) @ R
-        if not len(R) or np.abs(gram - np.eye(3)).max() < _EXACT:
+        if not len(R) or np.abs(gram - unit).max() < _EXACT:
             break
-        R = R @ (1.5 * np.eye(3) - 0.5 * gram)
-    if R.base is T:
-        return T
+        R = R @ (1.5 * unit - 0.5 * gram)
     T = T.copy()
     T[:, :3, :3] = R
     return T
@@ -190,13 +192,13 @@ def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
         if p.ndim != 2 or p.shape[1] != 3:
             raise DescriptionError(f"{frame}: positions have shape {p.shape}; (n, 3) is accepted")
         _finite(frame, p)
-        ones = np.full((len(p), 1), _weight(frame, target.weight))
+        ones = np.broadcast_to(_weight(frame, target.weight), (len(p), 1))
         return Goal(frame, np.zeros((1, 3)), _carried(frame, p[:, None], carry), None, ones, 0.0)
     pose = target if isinstance(target, Pose) else Pose(target)
     T = pose_array(frame, pose.T)
     if carry is not None:
-        T = _fits(frame, carry, len(T)) @ T
-    ones = np.full((len(T), 1), _weight(frame, pose.position_weight))
+        T = _fits(frame, carry, T) @ T
+    ones = np.broadcast_to(_weight(frame, pose.position_weight), (len(T), 1))
     rotation_weight = _weight(frame, pose.rotation_weight)
     R = T[:, :3, :3] if rotation_weight else None
     return Goal(frame, np.zeros((1, 3)), T[:, None, :3, 3], R, ones, rotation_weight)
@@ -220,7 +222,7 @@ def _points(frame: str, target: Points, carry: Array | None) -> Goal:
 
 def _numbers(name: str, values: npt.ArrayLike) -> Array:
     try:
-        return np.asarray(values, dtype=float)
+        return as_floats(values)
     except (TypeError, ValueError):
         raise DescriptionError(f"{name}: the target is not an array of numbers") from None
 
@@ -239,14 +241,14 @@ def _weight(frame: str, weight: float) -> float:
     return float(weight)
 
 
-def _fits(frame: str, carry: Array, n: int) -> Array:
-    if carry.ndim == 3 and len(carry) != n:
-        raise DescriptionError(f"{frame}: {n} samples, but base has {len(carry)}")
-    return carry
+def _fits(frame: str, carry: Array, T: Array) -> Array:
+    if carry.ndim == 3 and len(carry) != len(T):
+        raise DescriptionError(f"{frame}: {len(T)} samples, but base has {len(carry)}")
+    return beside(carry, T)
 
 
 def _carried(frame: str, p: Array, carry: Array | None) -> Array:
     if carry is None:
         return p
-    T = _fits(frame, carry, len(p))
+    T = _fits(frame, carry, p)
     return np.asarray(p @ T[..., :3, :3].swapaxes(-1, -2) + T[..., None, :3, 3])

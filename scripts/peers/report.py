@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from exo_pin import ik
+from exo_pin.chunks import CHUNK
 from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.leg.geometry import exact_geometry
-from exo_pin.ik.targets import CHUNK
 from exo_pin.robot import load_robot
 from peers import PEERS, calibrated, jobs
 from peers import plots as drawn

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from exo_pin.arrays import Array, Index, Mask
+from exo_pin.arrays import Array, Index, Mask, beside, to_host
 from exo_pin.ik.least_squares.cost import weighted_targets
 from exo_pin.ik.least_squares.driver import Minimum, minimise, minimise_with_restarts
 from exo_pin.ik.least_squares.leg_kernel import LegKernel
@@ -37,16 +37,17 @@ def solve_leg(
         seed: Where the samples start (6, n) [rad]; what the buffer holds if left out.
     """
     with np.errstate(invalid="ignore"):
-        rest = np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0))
+        rest = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
     if not len(rest):
         return
-    begin = buffer.q[np.ix_(rest, leg.columns)].T if seed is None else seed[:, rest]
-    reachable = np.asarray(~(buffer.slack[rest, f] < -leg.reach_error))
+    spot = np.ix_(rest, leg.columns)
+    begin = to_host(buffer.q[spot]).T if seed is None else seed[:, rest]
+    reachable = np.asarray(~(to_host(buffer.slack[rest, f]) < -leg.reach_error))
     kernel = _leg_kernel(task.goals[f], leg, rest, settings)
     answer = minimise_with_restarts(kernel, begin, settings, retry=reachable)
-    buffer.q[np.ix_(rest, leg.columns)] = answer.q.T
-    buffer.errors[:, rest, f] = answer.errors[:, 0]
-    buffer.steps[rest] += answer.steps
+    buffer.q[spot] = beside(answer.q.T, buffer.q)
+    buffer.errors[:, rest, f] = beside(answer.errors[:, 0], buffer.q)
+    buffer.steps[rest] += beside(answer.steps, buffer.q)
     buffer.solver[rest] = SOLVED_BY.index("dls")
 
 
@@ -60,15 +61,16 @@ def refine_leg(task: Problem, f: int, leg: LegAxes, buffer: SolutionBuffer) -> N
         buffer: Holds the closed form's answers; better ones replace them.
     """
     own = buffer.errors[:, :, f]
-    rough = np.flatnonzero(((own > _ROUNDING) & (own < _ROUGH)).any(axis=0))
+    rough = to_host(np.flatnonzero(((own > _ROUNDING) & (own < _ROUGH)).any(axis=0)))
     if not len(rough):
         return
     spot, settings = np.ix_(rough, leg.columns), Dls(tolerance=_ROUNDING, max_iterations=2)
-    answer = minimise(_leg_kernel(task.goals[f], leg, rough, settings), buffer.q[spot].T, settings)
+    begin, before = to_host(buffer.q[spot]).T, to_host(own[:, rough])
+    answer = minimise(_leg_kernel(task.goals[f], leg, rough, settings), begin, settings)
     errors = answer.errors[:, 0]
-    gain = errors.sum(axis=0) < own[:, rough].sum(axis=0)
-    buffer.q[spot] = np.where(gain, answer.q, buffer.q[spot].T).T
-    buffer.errors[:, rough, f] = np.where(gain, errors, own[:, rough])
+    gain = errors.sum(axis=0) < before.sum(axis=0)
+    buffer.q[spot] = beside(np.where(gain, answer.q, begin).T, buffer.q)
+    buffer.errors[:, rough, f] = beside(np.where(gain, errors, before), buffer.q)
 
 
 def solve_together(task: Problem, subtree: Subtree, settings: Dls, buffer: SolutionBuffer) -> None:
@@ -166,8 +168,8 @@ def _leg_kernel(goal: Goal, leg: LegAxes, samples: Index, settings: Dls) -> LegK
     assert goal.R is not None  # a leg has full poses as targets (`Problem.leg_of`)
     return LegKernel.of(
         leg,
-        goal.R[samples],
-        goal.p[samples, 0],
+        to_host(goal.R[samples]),
+        to_host(goal.p[samples, 0]),
         position_weight=settings.position_weight * goal.weight[0, 0],
         rotation_weight=settings.rotation_weight * goal.rotation_weight,
     )

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, beside, to_host
+from exo_pin.chunks import for_chunks
 from exo_pin.ik.leg import closed_form, forward
 from exo_pin.ik.leg.geometry import ClosedFormGeometry
 from exo_pin.ik.leg.scalar import exact_formula
 from exo_pin.ik.problem import Problem, SolutionBuffer
-from exo_pin.ik.targets import CHUNK, Goal
+from exo_pin.ik.targets import Goal
 from exo_pin.robot import LegAxes
 
 _FEW = 13  # up to so many samples plain `math` is quicker than arrays
@@ -29,10 +30,11 @@ def write_closed_form(
     """
     goal = task.goals[f]
     assert goal.R is not None  # a leg has full poses as targets (`Problem.leg_of`)
-    low, high = leg.lower[:, None], leg.upper[:, None]
-    for a in range(0, task.n, CHUNK):
-        part = slice(a, a + CHUNK)
-        R, p = forward.components(goal.R[part], goal.p[part, 0])
+    rotations, positions = goal.R, goal.p
+    low, high = (beside(limit[:, None], goal.p) for limit in (leg.lower, leg.upper))
+
+    def answer(part: slice) -> None:
+        R, p = forward.components(rotations[part], positions[part, 0])
         q = _one_by_one(goal, leg) if task.n <= _FEW else closed_form.angles(geometry, R, p)
         np.minimum(np.maximum(q, low, out=q), high, out=q)
         distance, angle = forward.errors(forward.pose(leg, q), R, p)
@@ -43,6 +45,8 @@ def write_closed_form(
         buffer.slack[part, f] = forward.reach_slack(leg, R, p)
         for j, column in enumerate(leg.columns):
             buffer.q[part, column] = q[j]
+
+    for_chunks(task.n, goal.p, answer)
 
 
 def write_approximate_seeds(
@@ -59,12 +63,15 @@ def write_approximate_seeds(
     """
     goal = task.goals[f]
     assert goal.R is not None  # as above
-    for a in range(0, task.n, CHUNK):
-        part = slice(a, a + CHUNK)
-        R, p = forward.components(goal.R[part], goal.p[part, 0])
+    rotations, positions = goal.R, goal.p
+
+    def seed(part: slice) -> None:
+        R, p = forward.components(rotations[part], positions[part, 0])
         q = closed_form.approximate_seed(leg, geometry, R, p)
         for j, column in enumerate(leg.columns):
             buffer.q[part, column] = q[j]
+
+    for_chunks(task.n, goal.p, seed)
     buffer.errors[:, :, f] = np.inf
     buffer.slack[:, f] = reach_slack(leg, goal)
 
@@ -74,12 +81,15 @@ def reach_slack(leg: LegAxes | None, goal: Goal) -> Array:
 
     NaN for targets without a rotation and for frames that no leg carries.
     """
-    out = np.full(len(goal.p), np.nan)
+    out = np.nan + np.zeros(len(goal.p), like=goal.p)
     if leg is None or goal.R is None:
         return out
-    for a in range(0, len(out), CHUNK):
-        part = slice(a, a + CHUNK)
-        out[part] = forward.reach_slack(leg, *forward.components(goal.R[part], goal.p[part, 0]))
+    rotations, positions = goal.R, goal.p
+
+    def measure(part: slice) -> None:
+        out[part] = forward.reach_slack(leg, *forward.components(rotations[part], positions[part, 0]))
+
+    for_chunks(len(out), out, measure)
     return out
 
 
@@ -89,5 +99,6 @@ def _one_by_one(goal: Goal, leg: LegAxes) -> Array:
     assert formula is not None  # its geometry is exact
     assert goal.R is not None  # as above
     rows = np.zeros((len(goal.p), 4, 4))
-    rows[:, :3, :3], rows[:, :3, 3] = goal.R, goal.p[:, 0]
-    return np.array([formula(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
+    rows[:, :3, :3], rows[:, :3, 3] = to_host(goal.R), to_host(goal.p[:, 0])
+    q = np.array([formula(T) for T in rows.reshape(-1, 16).tolist()]).reshape(-1, 6).T.copy()
+    return beside(q, goal.p)

@@ -12,6 +12,7 @@ Each answer has to be checked by forward kinematics: a target out of reach gets 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import cast
 
 import numpy as np
 
@@ -59,7 +60,8 @@ def approximate_seed(leg: LegAxes, geometry: ClosedFormGeometry, R: Matrix, p: l
         The best of a few rounds; neither exact nor within the limits.
     """
     R_shifted, p_shifted = R, p
-    best, least = np.empty((6, np.size(p[0]))), np.full(np.size(p[0]), np.inf)
+    first = cast("Array", p[0])
+    best, least = np.empty((6, len(first)), like=first), np.inf + np.zeros(len(first), like=first)
     for k in range(_ROUNDS):
         q = angles(geometry, R_shifted, p_shifted)
         tip = pose(leg, q)
@@ -74,7 +76,7 @@ def approximate_seed(leg: LegAxes, geometry: ClosedFormGeometry, R: Matrix, p: l
 
 
 def _angles(geometry: ClosedFormGeometry, G: Matrix, v: list[Array]) -> Array:
-    q = np.empty((6, len(v[0])))
+    q = np.empty((6, len(v[0])), like=v[0])
     square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
     scale = 0.5 / (geometry.thigh * geometry.shank)
     cos_k = square * scale - (geometry.lateral**2 + geometry.thigh**2 + geometry.shank**2) * scale
@@ -102,7 +104,7 @@ def _hip_to_ankle(geometry: ClosedFormGeometry, G: Matrix, p: list[Number]) -> l
     apart: list[Number] = [p[j] - geometry.hip[j] for j in range(3)]
     hip = [mix(apart, [float(x) for x in row]) for row in geometry.left]
     foot = [mix(row, [float(x) for x in geometry.ankle]) for row in G]
-    return [np.asarray(a + b) for a, b in zip(hip, foot, strict=True)]
+    return [cast("Array", a + b) for a, b in zip(hip, foot, strict=True)]
 
 
 def _roll(geometry: ClosedFormGeometry, h: list[Array]) -> tuple[Array, Array, Array, Array]:

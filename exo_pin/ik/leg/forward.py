@@ -6,7 +6,7 @@ contiguous rows. Nothing here knows how the closed form is derived; tests compar
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -97,14 +97,15 @@ def reach_slack(leg: LegAxes, R: Matrix, p: list[Number]) -> Array:
     """
     ankle = [float(x) for x in leg.ankle_in_frame]
     apart = [x - float(hip) + mix(row, ankle) for x, hip, row in zip(p, leg.hip, R, strict=True)]
-    return np.asarray(leg.reach - np.sqrt(apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2]))
+    distance: Array = np.sqrt(_squares(apart))
+    return leg.reach - distance
 
 
 def components(R: Array, p: Array) -> tuple[Matrix, list[Number]]:
     """Rotations (m, 3, 3) and positions (m, 3) component by component."""
     return (
-        [[np.ascontiguousarray(R[:, i, j]) for j in range(3)] for i in range(3)],
-        [np.ascontiguousarray(p[:, i]) for i in range(3)],
+        [[np.ascontiguousarray(R[:, i, j], like=R) for j in range(3)] for i in range(3)],
+        [np.ascontiguousarray(p[:, i], like=p) for i in range(3)],
     )
 
 
@@ -196,7 +197,7 @@ def _dot3(a: list[Number], b: tuple[Number, ...]) -> Number:
 
 
 def _squares(parts: list[Number]) -> Array:
-    total = np.asarray(parts[0] * parts[0])
+    total = cast("Array", parts[0] * parts[0])
     for part in parts[1:]:
         total += part * part
     return total
