@@ -15,9 +15,9 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, as_floats, beside, is_remote
 from exo_pin.errors import DescriptionError
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, leg_forward
 
 _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
@@ -29,7 +29,8 @@ def poses(
 
     Args:
         robot: The robot.
-        q: Configurations (..., nq) [rad].
+        q: Configurations (..., nq) [rad]. CuPy's arrays are answered where they live, for frames on legs of
+            six joints.
         frames: Names of links, point frames or joints.
         base: T_world_pelvis (4, 4) or (..., 4, 4); the robot's own placement if left out.
 
@@ -37,6 +38,8 @@ def poses(
         UnknownNameError: A frame is unknown.
         DescriptionError: The shape of q or base does not fit.
     """
+    if is_remote(q):
+        return _remote_poses(robot, as_floats(q), frames, base)
     ids = _indices(robot, frames)
     model, data = robot.model, robot.model.createData()
     rows, shape = samples(robot, q)
@@ -47,6 +50,27 @@ def poses(
             out[k, f] = data.oMf[index].homogeneous
     out = out.reshape(*shape, len(ids), 4, 4)
     return out if base is None else moved(robot, base, shape)[..., None, :, :] @ out
+
+
+def _remote_poses(robot: Robot, q: Array, frames: Sequence[str], base: npt.ArrayLike | None) -> Array:
+    """Poses of frames on legs of six joints, computed where the configurations live."""
+    shape = robot.angles(q).shape[:-1]
+    rows = q.reshape(-1, robot.nq)
+    out = np.zeros((len(rows), len(frames), 4, 4), like=q)
+    for f, name in enumerate(frames):
+        leg = robot.leg(name)
+        if leg is None:
+            raise DescriptionError(
+                f"{name}: no frame on a leg of six joints; others take an array of NumPy (`q.get()`)"
+            )
+        tip = leg_forward.pose(leg, rows[:, leg.columns].T)
+        for i in range(3):
+            for j in range(3):
+                out[:, f, i, j] = tip.R[i][j]
+            out[:, f, i, 3] = tip.p[i]
+    out[:, :, 3, 3] = 1.0
+    out = out.reshape(*shape, len(frames), 4, 4)
+    return out if base is None else beside(moved(robot, base, shape), q)[..., None, :, :] @ out
 
 
 def velocities(
@@ -200,10 +224,11 @@ def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     """
     if robot.base == "floating":
         raise DescriptionError("the base of a floating robot stands in q; base= is for base='fixed'")
-    base = np.asarray(base, dtype=float)
+    base = as_floats(base)
     if base.shape not in ((4, 4), (*shape, 4, 4)):
         raise DescriptionError(f"base has shape {base.shape}; (4, 4) or {(*shape, 4, 4)} is accepted")
-    return np.asarray(base @ np.linalg.inv(robot.placement))
+    T: Array = base @ beside(np.linalg.inv(robot.placement), base)
+    return T
 
 
 def _indices(robot: Robot, frames: Sequence[str]) -> list[int]:

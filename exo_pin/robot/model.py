@@ -17,7 +17,7 @@ import pinocchio as pin
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip_cardan_angles import reorder
 from exo_pin.anatomy.names import Base, HipOrder
-from exo_pin.arrays import Array, Mask
+from exo_pin.arrays import Array, Mask, as_floats
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
@@ -130,7 +130,7 @@ class Robot:
         Raises:
             DescriptionError: The last axis does not fit.
         """
-        q = np.asarray(q, dtype=float)
+        q = as_floats(q)
         if q.ndim == 0 or q.shape[-1] != self.nq:
             raise DescriptionError(
                 f"q has shape {q.shape}; (..., {self.nq}) is accepted, in the order of Robot.joints"

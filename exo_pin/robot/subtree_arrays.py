@@ -1,7 +1,7 @@
 """Forward kinematics of a subtree by products of exponentials, for many samples at once.
 
 Every joint is an axis and a point on it, in the world, at q = 0 (Brockett 1984). Samples stand on the last
-axis. Legs of six joints have their own, quicker arithmetic in `exo_pin.ik.leg.forward`.
+axis. Legs of six joints have their own, quicker arithmetic in `exo_pin.robot.leg_forward`.
 """
 
 from __future__ import annotations

@@ -15,8 +15,9 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.chunks import CHUNK
-from exo_pin.ik.leg import closed_form, forward
+from exo_pin.ik.leg import closed_form
 from exo_pin.ik.leg.geometry import exact_geometry
+from exo_pin.robot import leg_forward as forward
 from exo_pin.robot import load_robot
 from peers import PEERS, calibrated, jobs
 from peers import plots as drawn

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from exo_pin import ik
 from exo_pin.anatomy import FEET, HIP_ORDERS, Body
 from exo_pin.errors import ConvergenceError, DescriptionError
-from exo_pin.ik.leg import closed_form, forward, scalar
+from exo_pin.ik.leg import closed_form, scalar
 from exo_pin.ik.leg.geometry import exact_geometry
 from exo_pin.kinematics import jacobian, poses
+from exo_pin.robot import leg_forward as forward
 from exo_pin.robot import load_robot, load_urdf
 
 ROUNDING = 1e-14  # [m, rad] a dozen products of numbers of size one

@@ -16,6 +16,8 @@ from exo_pin.robot import Robot
 from tests.remote_array import RemoteArray
 
 FEET = ("left_foot", "right_foot")
+ANGLES = 1e-7  # rounding of the targets at a straight knee (STRAIGHT_COSINE) [rad]
+ROUNDING = 1e-14  # of a product of eight poses of about 1 m [m]
 
 
 @pytest.fixture
@@ -80,6 +82,16 @@ def test_a_moving_pelvis_may_live_on_the_accelerator_or_the_host(
         np.testing.assert_array_equal(_host(far.q), near.q)
 
 
+def test_a_card_gives_the_answers_of_the_host(robot: Robot, targets: dict[str, Array]) -> None:
+    cupy = pytest.importorskip("cupy", reason="needs CuPy (extra gpu)")
+    if not cupy.cuda.is_available():
+        pytest.skip("needs a card with CUDA")
+    targets["left_foot"][20:25, 2, 3] -= 0.5
+    far = ik.track(robot, {name: cupy.asarray(T) for name, T in targets.items()})
+    assert isinstance(far.q, cupy.ndarray)
+    np.testing.assert_allclose(far.q.get(), ik.track(robot, targets).q, atol=ANGLES)
+
+
 def test_two_kinds_of_arrays_in_one_call_are_refused(robot: Robot, targets: dict[str, Array]) -> None:
     mixed = targets | {"left_foot": RemoteArray(targets["left_foot"])}
     with pytest.raises(DescriptionError, match="one kind"):
@@ -90,6 +102,17 @@ def test_a_wrong_pose_is_named_as_on_the_host(robot: Robot, targets: dict[str, A
     targets["right_foot"][7, 0, 0] = np.nan
     with pytest.raises(DescriptionError, match="right_foot, frame 7"):
         ik.track(robot, _remote(targets))
+
+
+def test_poses_of_feet_are_computed_where_the_angles_live(robot: Robot, gait: Gait) -> None:
+    q = robot.from_gait(gait)
+    far = poses(robot, RemoteArray(q), FEET, base=gait.base)
+    np.testing.assert_allclose(_host(far), poses(robot, q, FEET, base=gait.base), atol=ROUNDING)
+
+
+def test_frames_off_the_legs_need_an_array_of_the_host(robot: Robot, gait: Gait) -> None:
+    with pytest.raises(DescriptionError, match="left_shank"):
+        poses(robot, RemoteArray(robot.from_gait(gait)), ["left_shank"])
 
 
 def _remote(targets: dict[str, Array]) -> dict[str, Any]:

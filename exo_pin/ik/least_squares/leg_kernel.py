@@ -15,8 +15,8 @@ from exo_pin.arrays import Array, Index
 from exo_pin.ik.least_squares.box_qp import box_step, normal_equations
 from exo_pin.ik.least_squares.kernel import Evaluation, Schedule, spread_point
 from exo_pin.ik.least_squares.rotation_vector import rotation_vector
-from exo_pin.ik.leg.forward import Matrix, Number, components, pose_and_jacobian
 from exo_pin.robot import LegAxes
+from exo_pin.robot.leg_forward import Matrix, Number, components, pose_and_jacobian
 
 _KNEE = 3  # row of the knee among the six joints
 _KNEE_OFFSETS = (0.1, -0.1)  # [rad] restarts that leave the saddle of the cost at the straight leg

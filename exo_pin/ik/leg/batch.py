@@ -6,12 +6,13 @@ import numpy as np
 
 from exo_pin.arrays import Array, beside, to_host
 from exo_pin.chunks import for_chunks
-from exo_pin.ik.leg import closed_form, forward
+from exo_pin.ik.leg import closed_form
 from exo_pin.ik.leg.geometry import ClosedFormGeometry
 from exo_pin.ik.leg.scalar import exact_formula
 from exo_pin.ik.problem import Problem, SolutionBuffer
 from exo_pin.ik.targets import Goal
 from exo_pin.robot import LegAxes
+from exo_pin.robot import leg_forward as forward
 
 _FEW = 13  # up to so many samples plain `math` is quicker than arrays
 

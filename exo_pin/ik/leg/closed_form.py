@@ -17,9 +17,9 @@ from typing import cast
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.ik.leg.forward import Matrix, Number, Tip, errors, mix, pose, times, transposed
 from exo_pin.ik.leg.geometry import ClosedFormGeometry
 from exo_pin.robot import LegAxes
+from exo_pin.robot.leg_forward import Matrix, Number, Tip, errors, mix, pose, times, transposed
 
 _CIRCLE = 2.0 * np.pi
 _ROUNDS = 4  # of an approximate seed

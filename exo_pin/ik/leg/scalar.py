@@ -14,9 +14,9 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.ik.leg import closed_form
 from exo_pin.ik.leg.closed_form import STRAIGHT_COSINE
-from exo_pin.ik.leg.forward import Matrix
 from exo_pin.ik.leg.geometry import ClosedFormGeometry, approximate_geometry, exact_geometry
 from exo_pin.robot import LegAxes
+from exo_pin.robot.leg_forward import Matrix
 
 Angles = tuple[float, float, float, float, float, float]
 Formula = Callable[[Sequence[float]], Angles]
