@@ -36,7 +36,8 @@ INNER_FLOORS = {  # of rooms with folders, in the same order; "." are the module
     "formats": [
         {"sign_presets", "read_options", "trial_file", "units"},
         {"tables"},
-        {"c3d", "opensim"},
+        {"c3d", "opensim", "xsens"},
+        {"motion_bids", "nexus"},
         {"."},
     ],
     "ik": [{"settings", "targets", "problem", "result"}, {"leg", "least_squares"}, {"."}],

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from exo_pin.gait import Gait
     from exo_pin.markers import Reconstruction
 
-_MARKER_ENDINGS = (".trc", ".c3d")
+_MARKER_ENDINGS = (".trc", ".c3d", ".csv", ".txt", ".tsv")
 """Of `exo_pin.formats.MARKER_FORMATS`, which takes time to import."""
 
 _FITTING = 0.03

@@ -12,7 +12,7 @@ from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim import StorageFile, write_gait
 from exo_pin.formats.read_options import ReadOptions
-from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial
+from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial, written_format
 from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
 from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
@@ -57,22 +57,19 @@ def load_gait(
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
         UnknownNameError: There is no such preset, joint, unit or order.
     """
-    file = path if isinstance(path, TrialFile) else None
-    name = Path(path) if not isinstance(path, TrialFile) else path.path
-    if name.suffix.lower() not in (".mot", ".sto") and (model or pelvis_order):
-        find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
-        raise FormatError(
-            name, "a model (.osim) or an order of the pelvis's rotations is for .mot and .sto files"
-        )
+    name = path.path if isinstance(path, TrialFile) else Path(path)
     if name.suffix.lower() not in TABLE_SUFFIXES and (columns or row_rate is not None):
         find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
-        raise FormatError(
-            name, f"columns by position and row rate are for tables ({', '.join(TABLE_SUFFIXES)})"
-        )
+        why = f"columns by position and row rate are for tables ({', '.join(TABLE_SUFFIXES)})"
+        raise FormatError(name, why)
+    file = _opened(path, None)
+    if not isinstance(file, StorageFile) and (model or pelvis_order):
+        why = "a model (.osim) or an order of the pelvis's rotations is for .mot and .sto files"
+        raise FormatError(name, f"{why}, and for their columns in a .csv")
     order = None if pelvis_order is None else tuple(pelvis_order)
     osim = None if model is None else Path(model)
     options = ReadOptions(preset, mapping, units, osim, order, tuple(columns), row_rate)
-    return _on_even_clock((file or open_trial(name)).gait(options))
+    return _on_even_clock(file.gait(options))
 
 
 def load_markers(path: str | Path | TrialFile) -> Markers:
@@ -163,7 +160,7 @@ def save_gait(gait: Gait, path: str | Path, *, preset: SignPreset | None = None)
             raise FormatError(path, "only .mot and .sto files are written for a model's preset")
         write_gait(gait, path, preset=find_preset(preset, OPENSIM_PRESETS))
         return
-    write = find_format(path, "angles", {key: entry for key, entry in FORMATS.items() if entry.write}).write
+    write = written_format(path).write
     assert write is not None  # the formats that cannot be written are left out
     write(gait, path)
 
@@ -178,7 +175,7 @@ def _on_even_clock(record: _Record) -> _Record:
     return replace(record, time=even, events=events, remarks=(*record.remarks, remark))
 
 
-def _opened(path: str | Path | TrialFile, content: Content) -> TrialFile:
+def _opened(path: str | Path | TrialFile, content: Content | None) -> TrialFile:
     if isinstance(path, TrialFile):
         return path
     return open_trial(path, content)

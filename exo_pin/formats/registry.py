@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, NamedTuple
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import c3d, opensim, tables
+from exo_pin.formats import c3d, motion_bids, nexus, opensim, tables, xsens
+from exo_pin.formats.gait_cycle_data import open_gcd
 from exo_pin.formats.gait_npz import open_archive, write_archive
 from exo_pin.formats.joint_trajectory import open_json, open_yaml
 from exo_pin.formats.march_subgait import open_subgait
@@ -30,6 +31,8 @@ class Format(NamedTuple):
         holds: What its files can hold.
         open: Reads a file once.
         write: Gait and path, or None where the format is only read. The pelvis's motion is kept.
+        recognises: Of a format that shares its ending with another: whether a file is of this one, by its
+            name (where it is written) or its first lines. Such formats are tried first. None: by its ending.
     """
 
     name: str
@@ -37,6 +40,7 @@ class Format(NamedTuple):
     holds: tuple[Content, ...]
     open: Callable[[Path], TrialFile]
     write: Callable[[Gait, Path], None] | None
+    recognises: Callable[[Path], bool] | None = None
 
 
 _ALL = (
@@ -74,13 +78,43 @@ _ALL = (
     Format("ROS JointTrajectory, JSON", (".json",), ("angles",), open_json, write_json),
     Format("set points of Project MARCH's exoskeleton", (".subgait",), ("angles",), open_subgait, None),
     Format("marker trial of Motion Analysis", (".trc",), ("markers",), open_trc, None),
+    Format(
+        "export of Vicon Nexus",
+        (".csv", ".txt"),
+        ("angles", "markers", "forces"),
+        nexus.open_nexus,
+        None,
+        nexus.is_nexus,
+    ),
+    Format(
+        "OpenSim coordinates with commas (OpenCap)",
+        (".csv",),
+        ("angles",),
+        opensim.open_coordinate_csv,
+        None,
+        opensim.is_coordinate_csv,
+    ),
+    Format(
+        "Motion-BIDS recording",
+        (".tsv",),
+        ("angles", "markers"),
+        motion_bids.open_motion_bids,
+        motion_bids.write_motion_bids,
+        motion_bids.is_motion_bids,
+    ),
+    Format("Xsens MVN", (".mvnx",), ("angles",), xsens.open_mvnx, None),
+    Format("mean cycles of Vicon (gait cycle data)", (".gcd",), ("angles",), open_gcd, None),
 )
 
 
 def formats_of(content: Content) -> Mapping[str, Format]:
-    """File name ending -> format, of the formats that can hold this content."""
+    """File name ending -> format, of the formats that can hold this content.
+
+    Where several share an ending, the one that takes any such file stands for it.
+    """
+    special_first = sorted(_ALL, key=lambda entry: entry.recognises is None)
     return MappingProxyType(
-        {suffix: entry for entry in _ALL if content in entry.holds for suffix in entry.suffixes}
+        {suffix: entry for entry in special_first if content in entry.holds for suffix in entry.suffixes}
     )
 
 
@@ -123,8 +157,31 @@ def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
     """
     path = Path(path)
-    known = formats_of(content) if content else {**FORMATS, **MARKER_FORMATS}
-    return find_format(path, content or "angles", known).open(path)
+    known = formats_of(content) if content else {**MARKER_FORMATS, **FORMATS}
+    entry = find_format(path, content or "angles", known)
+    special = _recognised(path, _ALL)
+    if special or entry.recognises is None:
+        return (special or entry).open(path)
+    return FORMATS[path.suffix.lower()].open(
+        path
+    )  # the ending of a format that can hold this, not the format
+
+
+def written_format(path: Path) -> Format:
+    """The format in which a walk is written to a file of that name.
+
+    Raises:
+        FormatError: No format with this ending is written.
+    """
+    known = {key: entry for key, entry in FORMATS.items() if entry.write}
+    return _recognised(path, [e for e in _ALL if e.write]) or find_format(path, "angles", known)
+
+
+def _recognised(path: Path, entries: Iterable[Format]) -> Format | None:
+    """The format that recognises a file among those with its ending, or None."""
+    suffix = path.suffix.lower()
+    special = (entry for entry in entries if entry.recognises and suffix in entry.suffixes)
+    return next((entry for entry in special if entry.recognises and entry.recognises(path)), None)
 
 
 def find_format(path: Path, content: Content, known: Mapping[str, Format]) -> Format:

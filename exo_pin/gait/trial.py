@@ -15,10 +15,13 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
-from exo_pin.gait.validation import check_time, frozen
+from exo_pin.gait.validation import FURTHEST, check_time, frozen
 
 UP_AXES: tuple[Vertical, ...] = ("+x", "+y", "+z", "-x", "-y", "-z")
 """Axes that can be the vertical of a laboratory."""
+
+LARGEST_FORCE = 1e5
+"""No foot presses more on a plate [N]; a larger number is damaged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +50,8 @@ class ForcePlate:
             if kept.shape != (len(self.time), 3):
                 raise GaitError(f"{self.name}: {name} has shape {kept.shape}, expected (m, 3)")
             set_fields(self, **{name: kept})
+        if np.isinf(self.force).any() or (np.abs(self.force) > LARGEST_FORCE).any():
+            raise GaitError(f"{self.name}: a force of more than {LARGEST_FORCE:g} N; damaged?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +102,11 @@ class Markers:
             raise GaitError(f"position has shape {self.position.shape}, expected ({n}, {k}, 3)")
         if len(set(self.names)) < k:
             raise GaitError("a marker occurs more than once")
-        if np.isinf(self.position).any():
-            raise GaitError("a marker is at infinity; expected metres, or NaN where it was not seen")
+        far = np.argwhere(np.abs(self.position) > FURTHEST)
+        if far.size:
+            frame, marker, _ = far[0]
+            why = f"marker {self.names[marker][:40]!a} is more than {FURTHEST:g} m away in frame {frame}"
+            raise GaitError(f"{why}; expected metres, or NaN where it was not seen")
         if self.up not in ("", *UP_AXES):
             raise UnknownNameError("axis", self.up, UP_AXES)
         for name, values in self.angles.items():

@@ -16,6 +16,9 @@ from exo_pin.gait.event import SAME_TIME, Event
 _LARGEST_ANGLE = np.pi
 """No joint of a leg turns further [rad]; a larger number is nearly always degrees taken for radians."""
 
+FURTHEST = 1e4
+"""From the origin of a laboratory [m]; a position beyond is a damaged number."""
+
 _LARGEST_TIME = 1e9
 """Thirty years [s]: a number beyond is no time of a walk."""
 
@@ -99,6 +102,9 @@ def check_poses(T: Array, n: int, name: str) -> None:
     """
     if T.shape != (n, 4, 4):
         raise GaitError(f"{name} has shape {T.shape}, expected ({n}, 4, 4): a pose in the world per time")
+    far = np.flatnonzero((np.abs(T[:, :3, 3]) > FURTHEST).any(axis=1))
+    if far.size:
+        raise GaitError(f"{name} of frame {far[0]} is more than {FURTHEST:g} m away; expected metres")
     wrong = rigid_poses.not_rigid(T)
     if wrong is not None:
         raise GaitError(

@@ -1,37 +1,53 @@
-"""XML of untrusted files: no document type (so no entities), limits of size, depth and elements."""
+"""XML of untrusted files: no entities, nothing from other files, limits of size, depth and elements."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes
 
-_LARGEST = 32 * 2**20
-"""Bytes; OpenSim's largest published models have some 5 MiB."""
-
 _DEEPEST = 100
 """Elements within elements; a model has a dozen."""
 
-_MOST = 200_000
-"""Elements: bounds memory and time; a full model has some 20 000."""
+
+class XmlLimits(NamedTuple):
+    """How much is read.
+
+    Attributes:
+        mebibytes: Of the file.
+        elements: Of all, kept or not.
+        skipped: Names of elements that are not kept, nor what is in them.
+    """
+
+    mebibytes: int = 32
+    elements: int = 200_000
+    skipped: frozenset[str] = frozenset()
 
 
-def load_xml(path: Path) -> Element:
-    """The root element of an XML file.
+MODEL_LIMITS = XmlLimits()
+"""Of a model: OpenSim's largest published ones have some 5 MiB and 20 000 elements."""
+
+
+def load_xml(path: Path, limits: XmlLimits = MODEL_LIMITS) -> Element:
+    """The root element of an XML file; a document type that only names a file is ignored.
+
+    Args:
+        path: The file.
+        limits: Of its size and elements.
 
     Raises:
-        FormatError: It is no XML, too large or too deep, or has a document type, whose entities can stand for
-            gigabytes or for other files.
+        FormatError: It is no XML, too large or too deep, or its document type defines something: entities can
+            stand for gigabytes or for other files.
     """
     data = read_bytes(path)
-    if len(data) > _LARGEST:
-        raise FormatError(path, f"larger than {_LARGEST // 2**20} MiB of XML")
-    reader = _Reader(path)
+    if len(data) > limits.mebibytes * 2**20:
+        raise FormatError(path, f"larger than {limits.mebibytes} MiB of XML")
+    reader = _Reader(path, limits)
     try:
         reader.parser.Parse(data, True)
         return reader.tree.close()
@@ -44,30 +60,50 @@ def load_xml(path: Path) -> Element:
 class _Reader:
     """Builds the tree while it counts."""
 
-    def __init__(self, path: Path) -> None:
-        self.path, self.depth, self.count = path, 0, 0
+    def __init__(self, path: Path, limits: XmlLimits) -> None:
+        self.path, self.limits, self.depth, self.count, self.skipping = path, limits, 0, 0, 0
         self.tree, self.parser = TreeBuilder(), expat.ParserCreate()
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
-        self.parser.CharacterDataHandler = self.tree.data
+        self.parser.CharacterDataHandler = self.data
         self.parser.StartDoctypeDeclHandler = self.doctype
+        self.parser.SkippedEntityHandler = self.entity
+        self.parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
 
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         """An element opens."""
         self.depth, self.count = self.depth + 1, self.count + 1
-        if self.depth > _DEEPEST or self.count > _MOST:
-            self.refuse(f"more than {_DEEPEST} levels or {_MOST} elements")
-        self.tree.start(tag, dict(attributes))
+        if self.depth > _DEEPEST or self.count > self.limits.elements:
+            self.refuse(f"more than {_DEEPEST} levels or {self.limits.elements} elements")
+        if self.skipping or tag in self.limits.skipped:
+            self.skipping += 1
+        else:
+            self.tree.start(tag, dict(attributes))
+
+    def data(self, text: str) -> None:
+        """Text of an element."""
+        if not self.skipping:
+            self.tree.data(text)
 
     def end(self, tag: str) -> None:
         """An element closes."""
         self.depth -= 1
-        self.tree.end(tag)
+        if self.skipping:
+            self.skipping -= 1
+        else:
+            self.tree.end(tag)
 
-    def doctype(self, *_: object) -> None:
-        """A document type could define entities."""
-        self.refuse("has a document type (<!DOCTYPE>), which is not read; remove it")
+    def doctype(self, name: str, system: str | None, public: str | None, has_subset: int) -> None:
+        """A document type may name a file, which is not read; what it defines itself could be entities."""
+        if has_subset:
+            self.refuse(
+                "has a document type with definitions (<!DOCTYPE [...]>), which are not read; remove it"
+            )
+
+    def entity(self, name: str, is_parameter: bool) -> None:
+        """An entity that another file would define."""
+        self.refuse(f"uses the entity {name[:40]!r} of its document type, which is not read")
 
     def refuse(self, why: str) -> NoReturn:
         """Stop reading."""

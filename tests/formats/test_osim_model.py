@@ -327,6 +327,7 @@ def test_models_and_orders_are_for_opensims_files(model, tmp_path, angles):
     path = motion(tmp_path / "x.mot", angles)
     with pytest.raises(UnknownNameError, match="in any order"):
         load_gait(path, pelvis_order=("tilt", "list"))
+    (tmp_path / "x.csv").write_text("time_s\n")
     with pytest.raises(FormatError, match=r"is for \.mot and \.sto"):
         load_gait(tmp_path / "x.csv", model=model)
 

@@ -140,7 +140,7 @@ def test_a_marker_file_is_no_gait_and_says_what_to_do(path):
     with pytest.raises(FormatError, match=r"holds markers, not angles; exo_pin\.markers\.load_walk"):
         load_gait(path)
     with pytest.raises(FormatError, match="a marker trial ends in"):
-        load_markers(path.with_suffix(".csv"))
+        load_markers(path.with_suffix(".npz"))
 
 
 @pytest.mark.parametrize("up", UP_AXES)

@@ -14,6 +14,7 @@ _EXAMPLES = """examples:
   exo-pin convert free normal.csv            a normal walk as a file
   exo-pin convert walk.trc walk.npz          markers by inverse kinematics on a body scaled to them
   exo-pin convert walk.csv walk.c3d --rate 100    C3D files need even samples
+  exo-pin convert walk.mot sub-01_task-walk_tracksys-imu_motion.tsv    Motion-BIDS
   exo-pin convert free walk.yaml             a ROS JointTrajectory for a controller
   exo-pin convert lab.csv walk.csv --units deg --map t=time --map KneeL=left_knee_flexion ..."""
 
@@ -25,7 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "output",
         metavar="OUT",
-        help="the new file; its ending (.csv .tsv .mot .sto .npz .yaml .json .c3d) is the format",
+        help="the new file; its ending (.csv .tsv .mot .sto .npz .yaml .json .c3d _motion.tsv) is the format",
     )
     parser.add_argument(
         "--rate", type=float, metavar="HZ", help="sample the walk anew, at whole multiples of 1 / HZ"

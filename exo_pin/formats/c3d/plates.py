@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.formats.c3d.content import C3dPlate
 from exo_pin.formats.units import is_newton, metres_per, newton_metres_per
-from exo_pin.gait.trial import ForcePlate
+from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
 
 
 class FoundPlates(NamedTuple):
@@ -38,6 +38,9 @@ def force_plates(
         if not is_newton(newton) or turning is None or metres is None:
             units = ", ".join(ascii(text[:12]) for text in plate.units)
             remarks.append(f"force plate {k} is in {units} and left out; N, Nmm, mm are read")
+            continue
+        if np.isinf(plate.force).any() or (np.abs(plate.force) > LARGEST_FORCE).any():
+            remarks.append(f"force plate {k} has more than {LARGEST_FORCE:g} N and is left out: damaged?")
             continue
         time: Array = start + np.arange(len(plate.force)) / rate
         point, moment = plate.point * metres, plate.moment * turning

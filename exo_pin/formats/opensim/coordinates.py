@@ -24,9 +24,7 @@ from exo_pin.formats.tables.metadata import read_metadata, to_gait
 from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.formats.units import RADIANS_PER
 from exo_pin.gait import Gait
-
-_FURTHEST = 1e4
-"""From the origin of a laboratory [m]; a pelvis beyond is a damaged number."""
+from exo_pin.gait.validation import FURTHEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,8 +138,8 @@ def _present(
     table.angles(legs, degrees=degrees)  # refuses what is absurd
     angles = {*legs, *convention.pelvis_angles}
     lengths = [name for name in names if name not in angles]
-    far = np.abs(table.columns(lengths)) > _FURTHEST
-    table.refuse(far, lengths, f"more than {_FURTHEST:g} m away; expected metres")
+    far = np.abs(table.columns(lengths)) > FURTHEST
+    table.refuse(far, lengths, f"more than {FURTHEST:g} m away; expected metres")
     scale = RADIANS_PER["deg" if degrees else "rad"]
     columns = zip(names, table.columns(names).T, strict=True)
     return {name: column * (scale if name in angles else 1.0) for name, column in columns}

@@ -12,16 +12,12 @@ from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.tables.numeric_table import NumericTable
-from exo_pin.gait.trial import ForcePlate
+from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
 
 _FORCE_COLUMN = re.compile(
     r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"
 )
 """`1_ground_force_vx`, `ground_force_1_vx`, `ground_force_l_px`, `ground_torque_x`, `l_ground_moment_mx`."""
-
-
-_LARGEST_FORCE = 1e5
-"""No foot presses more on a plate [N]; a larger number is damaged."""
 
 
 def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
@@ -68,6 +64,6 @@ def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str])
         values = table.columns(names)
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
-            table.refuse(np.abs(values) > _LARGEST_FORCE, names, f"more than {_LARGEST_FORCE:g} N")
+            table.refuse(np.abs(values) > LARGEST_FORCE, names, f"more than {LARGEST_FORCE:g} N")
         parts.append(np.nan_to_num(values) @ FROM_OPENSIM.T)
     return ForcePlate(f"force plate {name}".strip(), time, *parts)

@@ -1,0 +1,64 @@
+"""OpenSim coordinates in a table with commas, as OpenCap's processing and data frames write them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from exo_pin.files import read_lines
+from exo_pin.formats.opensim.coordinate_names import LEG_COORDINATES
+from exo_pin.formats.opensim.coordinates import coordinates_gait
+from exo_pin.formats.opensim.storage import Storage
+from exo_pin.formats.opensim.storage_file import StorageFile
+from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.tables.numeric_table import is_number, parse
+from exo_pin.formats.tables.table_file import TableFile
+from exo_pin.gait import Gait
+
+_HEAD = 65536
+"""Bytes that the line of names fits in."""
+
+
+@dataclass(frozen=True, eq=False)
+class CoordinateCsv(StorageFile):
+    """Such a table.
+
+    Attributes:
+        lines: Of the file.
+    """
+
+    lines: list[str]
+
+    def gait(self, options: ReadOptions) -> Gait:
+        """The walk by its coordinates, or as any table where the user names its columns."""
+        named = [key for key in options.mapping if not is_number(key)]
+        if named or options.columns or options.row_rate is not None:
+            return TableFile(self.path, self.lines, ",").gait(options)
+        return coordinates_gait(self.storage, options)
+
+
+def is_coordinate_csv(path: Path) -> bool:
+    """Whether the first line names the time and coordinates of the legs."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEAD).decode("utf-8-sig", "replace")
+    except (OSError, ValueError):
+        return False
+    names = set(_names(head.replace("\r", "\n").partition("\n")[0]))
+    return "time" in names and len(names & {*LEG_COORDINATES, *(f"{n}/value" for n in LEG_COORDINATES)}) > 1
+
+
+def open_coordinate_csv(path: Path) -> CoordinateCsv:
+    """Read such a table: a column without a name, the rows' numbers, is left out.
+
+    Raises:
+        FormatError: Ragged rows, cells that are no number.
+    """
+    lines = read_lines(path)
+    names = [name or f"unnamed {k}" for k, name in enumerate(_names(lines[0]))]
+    table = parse(path, names, lines[1:], first=2, delimiter=",", gaps=True, repeated=True)
+    return CoordinateCsv(path, Storage("Coordinates", {}, [], table), lines)
+
+
+def _names(line: str) -> list[str]:
+    return [name.strip().strip('"') for name in line.split(",")]
