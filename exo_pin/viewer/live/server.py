@@ -14,7 +14,7 @@ import ipaddress
 import json
 import secrets
 import threading
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from contextlib import ExitStack
 from functools import cached_property
 from types import TracebackType
@@ -126,6 +126,12 @@ class Server:
 
         packed = bundle(scene)
         self._loop.call_soon_threadsafe(self._install, packed, scene)
+        if scene.robot is not None:
+            from exo_pin.viewer.live.foot_drag import reach_solver
+
+            joints = [joint.name for joint in scene.facts.chains[0].joints]
+            solver = reach_solver(scene.robot, joints)  # here, where it delays no page
+            self._loop.call_soon_threadsafe(self._install_solver, scene, solver)
         return packed
 
     def preview(self, packed: bytes) -> None:
@@ -181,7 +187,7 @@ class Server:
     def _work(self, begun: threading.Event) -> None:
         """Make the loop and run it; a signal, which the main thread gets, finds it whole or not at all."""
         self._loop = asyncio.new_event_loop()
-        self._watchers = Watchers(self._loop)
+        self._watchers = Watchers(self._loop, self._greet)
         asyncio.set_event_loop(self._loop)
         begun.set()
         self._loop.run_forever()
@@ -213,21 +219,17 @@ class Server:
     def _install(self, packed: bytes, scene: Scene | None) -> None:
         self._scene = scene
         self._watchers.forget_requests()
-        self._watchers.answer = None if scene is None or scene.robot is None else self._first_answer
+        self._watchers.answer = None
         self._title = self._title if scene is None else scene.title
         if packed != self._bundle:
             self._bundle, self._state = packed, None
             self._watchers.send(_BUNDLE + packed)
 
-    def _first_answer(self, request: messages.ReachRequest) -> messages.Reached:
-        """Answer the first request of a scene, and prepare for others: this imports the solver."""
-        from exo_pin.viewer.live.foot_drag import reach_solver
-
-        assert self._scene is not None
-        assert self._scene.robot is not None
-        joints = [joint.name for joint in self._scene.facts.chains[0].joints]
-        self._watchers.answer = reach_solver(self._scene.robot, joints)
-        return self._watchers.answer(request)
+    def _install_solver(
+        self, scene: Scene, solver: Callable[[messages.ReachRequest], messages.Reached]
+    ) -> None:
+        if self._scene is scene:
+            self._watchers.answer = solver
 
     @cached_property
     def _template(self) -> PageTemplate:
@@ -239,9 +241,10 @@ class Server:
 
     def opened(self, client: Live) -> None:
         """A page opened its connection: it gets the scene, and the state where another page was."""
-        if not self._watchers.add(client):
-            return
-        self._http.keep(client.stream)
+        if self._watchers.add(client):
+            self._http.keep(client.stream)
+
+    def _greet(self, client: Live) -> None:
         if self._bundle:
             client.send(_BUNDLE + self._bundle)
         if self._state is not None:

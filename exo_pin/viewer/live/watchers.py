@@ -26,17 +26,19 @@ class Watchers:
 
     Args:
         loop: The server's event loop.
+        greet: Sends a new page what is shown; many that come at once are greeted one after the other.
 
     Attributes:
         answer: Answers a request, or None while there is nothing to answer it.
     """
 
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, loop: asyncio.AbstractEventLoop, greet: Callable[[Live], None]) -> None:
         self.answer: Callable[[ReachRequest], Reached] | None = None
-        self._loop = loop
+        self._loop, self._greet = loop, greet
+        self._new: dict[Live, None] = {}
         self._reported: dict[Live, bool] = {}
         self._requests: dict[Live, ReachRequest] = {}
-        self._answering = False
+        self._busy = False
 
     def __len__(self) -> int:
         return len(self._reported)
@@ -54,12 +56,15 @@ class Watchers:
                 return False
             self.remove(silent)
         self._reported[client] = False
+        self._new[client] = None
+        self._begin(0.0)
         return True
 
     def remove(self, client: Live) -> None:
         """A page is gone."""
         self._reported.pop(client, None)
         self._requests.pop(client, None)
+        self._new.pop(client, None)
 
     def reported(self, client: Live) -> None:
         """A page reported its playback."""
@@ -69,7 +74,8 @@ class Watchers:
     def send(self, message: bytes) -> None:
         """Send a message to all pages."""
         for client in list(self._reported):
-            client.send(message)
+            if client not in self._new:
+                client.send(message)
 
     def close(self, code: int, reason: str) -> None:
         """Close all connections."""
@@ -85,17 +91,25 @@ class Watchers:
         if client not in self._reported:
             return
         self._requests[client] = request
-        if not self._answering:
-            self._answering = True
-            self._loop.call_later(_GATHERING, self._answer_next)
+        self._begin(_GATHERING)
 
-    def _answer_next(self) -> None:
-        """Answer one page; the loop serves connections before it comes to the next one."""
-        self._answering = bool(self._requests)
-        if not self._requests:
+    def _begin(self, delay: float) -> None:
+        if not self._busy:
+            self._busy = True
+            self._loop.call_later(delay, self._serve_next)
+
+    def _serve_next(self) -> None:
+        """Greet or answer one page; the loop serves connections before it comes to the next one."""
+        self._busy = bool(self._new or self._requests)
+        if not self._busy:
+            return
+        self._loop.call_soon(self._serve_next)
+        if self._new:
+            client = next(iter(self._new))
+            del self._new[client]
+            self._greet(client)
             return
         client = next(iter(self._requests))
         request = self._requests.pop(client)
-        self._loop.call_soon(self._answer_next)
         if self.answer is not None:
             client.send(json.dumps(self.answer(request).to_json()))
