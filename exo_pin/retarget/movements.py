@@ -19,8 +19,11 @@ _HIP: tuple[Movement, ...] = ("hip_adduction", "hip_flexion", "hip_rotation")
 _ANKLE: tuple[Movement, ...] = ("ankle_inversion", "ankle_dorsiflexion")
 """The same below the knee; no ankle rotates about the vertical."""
 
+_LATERAL_SHARE = 0.75
+"""A joint flexes where its axis has more than this share along y: an axis half yaw, half pitch does not."""
+
 _AT_THE_FOOT = 0.2
-"""A joint of the toes is not lower than the ankle by more than this share of the leg."""
+"""Toes, and all joints after them, are not lower than the ankle by more than this share of the leg."""
 
 
 def movements(axes: Array, points: Array, joints: tuple[str, ...]) -> tuple[Movement, ...]:
@@ -38,7 +41,7 @@ def movements(axes: Array, points: Array, joints: tuple[str, ...]) -> tuple[Move
         DescriptionError: There is no hip flexion and knee, or a movement has two joints.
     """
     main = np.argmax(np.abs(axes), axis=1)
-    flexing = np.flatnonzero(main == LATERAL)
+    flexing = np.flatnonzero(np.abs(axes[:, LATERAL]) > _LATERAL_SHARE)
     if len(flexing) < 2:
         raise DescriptionError(
             f"the joints {', '.join(joints)} have no hip flexion and knee about the lateral axis"
@@ -54,7 +57,7 @@ def _up_to_the_ankle(main: Array, points: Array, knee: int) -> int:
     """Number of joints without those of toes: what repeats a movement of the ankle at the foot."""
     for k in range(knee + 2, len(main)):
         repeats = main[k] in main[knee + 1 : k] or k > knee + 2
-        drop = points[knee + 1, 2] - points[k, 2]
+        drop = points[knee + 1, 2] - points[k:, 2].min()
         if repeats and drop < _AT_THE_FOOT * float(points[0, 2] - points[knee + 1, 2]):
             return k
     return len(main)

@@ -140,6 +140,7 @@ ARRANGEMENTS = {
     "inclined hip axes": Arrangement(
         hip=("pitch", "roll", "yaw"), axis={"hip_roll": "0.94 0 0.342", "hip_yaw": "-0.342 0 0.94"}
     ),
+    "hip yaw inclined by 45 degrees": Arrangement(axis={"hip_yaw": "0 0.7071 0.7071"}),
     "ankle axes apart": Arrangement(apart={"ankle_roll": (0.02, 0, -0.03)}),
     "mimic knee": Arrangement(mimic=True),
     "continuous joints": Arrangement(kind="continuous"),
@@ -261,6 +262,17 @@ def test_one_knee_that_bends_the_other_way_is_refused_with_its_limits():
     text = Arrangement().urdf(1.0).replace('lower="0.0" upper="2.3"', 'lower="-2.3" upper="0.1"', 1)
     with pytest.raises(DescriptionError, match=r"left_knee.* 5\.7 deg backward only .*-131\.8 \.\. 5\.7"):
         retarget(GAIT, load_urdf(text))
+
+
+def test_a_leg_of_more_parts_than_a_person_s_is_refused_until_a_joint_is_locked(tmp_path):
+    """As a bird's: below the knee a long part, and another one below that."""
+    text = Arrangement(toes=True, apart={"toes": (-0.2, 0, -0.25)}).urdf(1.0)
+    (tmp_path / "mine.urdf").write_text(text, "utf-8")
+    with pytest.raises(DescriptionError, match=r"left_ankle_pitch and left_toes .*locked"):
+        retarget(GAIT, tmp_path / "mine.urdf")
+    record = tmp_path / "mine.toml"
+    record.write_text('urdf = "mine.urdf"\nlocked = ["left_toes", "right_toes"]\n', "utf-8")
+    assert retarget(GAIT, record).samples_missed == 0
 
 
 def test_arms_that_walk_are_named():

@@ -66,7 +66,11 @@ def stage_robot(result: Retargeted, options: SceneOptions) -> Staging:
         walk=walk,
         actors=tuple(actors),
         mounts=tuple(_mount(tree, sole) for sole in feet),
-        handles=tuple(Handle(leg.foot, leg.side) for leg in biped.legs if leg.reaches_any_pose),
+        handles=tuple(
+            Handle(leg.foot, leg.side)
+            for leg in biped.legs
+            if leg.reaches_any_pose and biped.robot.leg(leg.foot) is not None  # no waist would move with it
+        ),
         tabs=tabs,
         reference="joint by joint",
         compared="" if options.compare is None else options.compare_title,
