@@ -57,6 +57,11 @@ PelvisRotation = Literal["tilt", "list", "rotation"]
 SignPreset = Literal["exo_pin", "opensim-gait2392", "opensim-rajagopal", "vicon-pig"]
 """Sign convention of a laboratory or a model family."""
 
+Segment = Literal["pelvis", "thigh", "shank", "foot"]
+"""A segment of the body that markers sit on."""
+HipRegression = Literal["davis", "harrington"]
+"""How hip centres follow from the pelvis's markers: Davis 1991 or Harrington 2007."""
+
 SIDES: tuple[Side, ...] = ("left", "right")
 
 MOVEMENTS: tuple[Movement, ...] = (
@@ -68,6 +73,8 @@ MOVEMENTS: tuple[Movement, ...] = (
     "ankle_inversion",
 )
 """Movements of a leg; the name is the positive direction on both sides (hip_rotation: internal)."""
+
+HIP_REGRESSIONS: tuple[HipRegression, ...] = get_args(HipRegression)
 
 SIGN_PRESETS: tuple[SignPreset, ...] = get_args(SignPreset)
 

@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 _MARKER_ENDINGS = (".trc", ".c3d", ".csv", ".txt", ".tsv")
 """Of `exo_pin.formats.MARKER_FORMATS`, which takes time to import."""
 
-_FITTING = 0.03
-"""Markers further from their body [m, root mean square] are doubted: OpenSim's users ask for less than 0.02,
-and the recordings at hand have 0.008 to 0.010."""
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Options of tables of other laboratories and of marker trials, and the files that the command opens."""
@@ -191,14 +187,7 @@ def sentence(trial: Reconstruction) -> str:
 def doubts(args: argparse.Namespace) -> tuple[str, ...]:
     """Reasons to doubt that the markers were understood; none where GAIT is no trial."""
     trial = found(args)
-    if trial is None or trial.total_rms < _FITTING:
-        return ()
-    of = trial.by_marker()
-    worst = ", ".join(sorted(of, key=lambda name: -of[name])[:3])
-    return (
-        f"markers lie {1e3 * trial.total_rms:.0f} mm (RMS) from the body, {worst} furthest: "
-        "markers or sides interchanged, or an axis mirrored?",
-    )
+    return () if trial is None else trial.doubts
 
 
 def to_json(args: argparse.Namespace) -> dict[str, Any] | None:

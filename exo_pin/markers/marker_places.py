@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.markers.body_scale import Sizes
-from exo_pin.markers.marker_sets import MarkerSet
+from exo_pin.markers.person_sizes import Sizes
+from exo_pin.markers.spots import MarkerSet
 
 
 class MarkerPlaces(NamedTuple):
@@ -25,28 +25,43 @@ class MarkerPlaces(NamedTuple):
     local: dict[str, Array]
     spread: dict[str, Array]
 
+    def by_marker(self) -> dict[str, Array]:
+        """Marker -> `(3,)` place in its link [m]."""
+        return {
+            name: place
+            for link, row in self.names.items()
+            for name, place in zip(row, self.local[link], strict=True)
+        }
 
-def marker_places(chosen: MarkerSet, sizes: Sizes, pelvis: Array, names: Mapping[str, Array]) -> MarkerPlaces:
+    def only(self, names: Container[str]) -> MarkerPlaces:
+        """The places of some markers."""
+        keep = {link: [name in names for name in row] for link, row in self.names.items()}
+        rows = {link: tuple(np.array(row)[keep[link]].tolist()) for link, row in self.names.items()}
+        local, spread = (
+            {link: values[keep[link]] for link, values in part.items() if rows[link]}
+            for part in (self.local, self.spread)
+        )
+        return MarkerPlaces({link: row for link, row in rows.items() if row}, local, spread)
+
+
+def marker_places(
+    chosen: MarkerSet, sizes: Sizes, names: Mapping[str, Array], own: Mapping[str, Array] | None = None
+) -> MarkerPlaces:
     """The set's places on a body of these sizes.
 
     Args:
         chosen: The marker set.
         sizes: Of the body.
-        pelvis: `(k, 3)` places of the pelvis's k markers, in the order of the set [m].
         names: By the names of the markers of the trial.
+        own: Marker -> `(3,)` place in its link [m], where it is known better than by the set.
     """
-    lengths = {"thigh": sizes.thigh, "shank": 1 - sizes.thigh}
     rows: dict[str, list[tuple[str, Array, float]]] = {}
-    for name, (link, spot) in chosen.spots().items():
-        if name not in names:
-            continue
-        k = 0 if link.startswith("left") else 1
-        scale = sizes.foot[k] if spot.segment == "foot" else sizes.leg[k] * lengths.get(spot.segment, 0.0)
-        rows.setdefault(link, []).append((name, np.array(spot.place) * scale, spot.spread))
-    local = {link: np.array([place for _, place, _ in row]) for link, row in rows.items()}
-    local["pelvis"] = pelvis
+    for name, spot in chosen.spots.items():
+        if name in names:
+            place = np.array(spot.place) * sizes.length(spot.segment, spot.side)
+            rows.setdefault(spot.link, []).append((name, (own or {}).get(name, place), spot.spread))
     return MarkerPlaces(
         {link: tuple(name for name, _, _ in row) for link, row in rows.items()},
-        local,
+        {link: np.array([place for _, place, _ in row]) for link, row in rows.items()},
         {link: np.array([spread for *_, spread in row]) for link, row in rows.items()},
     )

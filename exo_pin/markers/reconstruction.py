@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,10 +19,16 @@ from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, TrialFile, load_markers
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import UP_AXES, to_z_up, vertical_along
-from exo_pin.markers.body_scale import body_of, check_lengths, first_sizes
-from exo_pin.markers.marker_fit import calibrated, fit_poses, some_frames
+from exo_pin.markers.body_scale import first_sizes
+from exo_pin.markers.calibration import CalibratedBody, calibrated, some_frames
+from exo_pin.markers.marker_fit import fit_poses
+from exo_pin.markers.marker_noise import calmed
 from exo_pin.markers.marker_places import MarkerPlaces
-from exo_pin.markers.marker_sets import MarkerSet, marker_set, plain
+from exo_pin.markers.marker_sets import find_set
+from exo_pin.markers.person_sizes import body_of, check_lengths
+from exo_pin.markers.recognition import Recognised, fewest_on, recognise
+from exo_pin.markers.spots import MarkerSet
+from exo_pin.markers.trial_doubts import misfit_doubts, range_doubts, side_doubts
 from exo_pin.robot import Robot
 
 
@@ -36,6 +43,7 @@ class Reconstruction:
         names: The k markers that were used, by the set's names.
         error: `(n, k)` distance of each marker from its place on the body [m]; NaN where it was not seen.
         filled: Coordinates that were filled in short gaps.
+        doubts: Reasons to doubt that the markers were understood; empty where there are none.
     """
 
     gait: Gait
@@ -44,6 +52,7 @@ class Reconstruction:
     names: tuple[str, ...]
     error: Array
     filled: int
+    doubts: tuple[str, ...] = ()
 
     @property
     def rms(self) -> Array:
@@ -125,53 +134,84 @@ def reconstruct(
     """
     if len(trial) < 2:
         raise GaitError("one frame is a posture, no walk; it can be the standing trial (--static) of another")
-    chosen, paths, moved, filled = _paths(trial, markers)
-    calibration = paths if static is None else _paths(static, chosen.name)[1]
-    shared = {name: path for name, path in paths.items() if name in calibration}
-    sizes, pelvis = first_sizes(chosen, {name: calibration[name] for name in shared})
+    known = None if markers is None else find_set(markers)
+    every = _seen_names(trial) + (() if static is None else _seen_names(static))
+    chosen = recognise(dict.fromkeys(every), known).chosen
+    moving = _paths(trial, chosen)
+    model = _calibrated(moving, None if static is None else _paths(static, chosen), trial, static)
+    places = model.places.only(moving.paths)
+    start, stop = _seen(places, moving.paths)
+    used = {name: path[start:stop] for name, path in moving.paths.items()}
+    q, error, names = fit_poses(model.robot, places, used)
+    gait = _gait(model.robot, q, moving, (start, stop))
+    body = body_of(model.sizes, mass=mass, sex=sex)
+    made = Reconstruction(gait, body, moving.found.chosen.name, names, error, moving.filled)
+    misfit = misfit_doubts(made.total_rms, made.by_marker())
+    return dataclasses.replace(made, doubts=misfit + side_doubts(model.robot, q) + range_doubts(gait.q))
+
+
+class _Paths(NamedTuple):
+    """A trial as markers of a set: z up, short gaps filled.
+
+    Attributes:
+        found: The set and what is there of it.
+        paths: Marker of the set -> `(n, 3)` path [m].
+        trial: The trial with z up.
+        filled: Coordinates that were filled.
+    """
+
+    found: Recognised
+    paths: dict[str, Array]
+    trial: Markers
+    filled: int
+
+
+def _calibrated(
+    moving: _Paths, standing: _Paths | None, trial: Markers, static: Markers | None
+) -> CalibratedBody:
+    """The body by the static trial's sizes and both trials' frames, or by the trial alone."""
+    chosen = moving.found.chosen
+    first = standing or moving
+    sizes, pelvis = first_sizes(chosen, first.paths)
     check_lengths(sizes, (static or trial).unit)
-    model = calibrated(chosen, sizes, pelvis, {name: some_frames(calibration[name]) for name in shared})
-    start, stop = _seen(model.places, paths)
-    used = {name: path[start:stop] for name, path in paths.items()}
-    q, error, names = fit_poses(model.robot, model.places, used)
-    gait = _gait(model.robot, q, moved, (start, stop), chosen)
-    body = body_of(model.sizes, chosen, mass=mass, sex=sex)
-    return Reconstruction(gait, body, chosen.name, names, error, filled)
+    both = [moving] if standing is None else [standing, moving]
+    frames = [{name: some_frames(path) for name, path in part.paths.items()} for part in both]
+    names = [name for name in chosen.spots if any(name in part for part in frames)]
+    counts = [len(next(iter(part.values()))) for part in frames]
+    paths = {
+        name: np.concatenate(
+            [part.get(name, np.full((n, 3), np.nan)) for part, n in zip(frames, counts, strict=True)]
+        )
+        for name in names
+    }
+    return calibrated(chosen, sizes, pelvis, paths)
 
 
-def _paths(trial: Markers, name: str | None) -> tuple[MarkerSet, dict[str, Array], Markers, int]:
-    """The set, its markers' paths with z up and short gaps filled, the turned trial, how much was filled."""
-    trial = with_sacrum(trial)
-    chosen, own = marker_set(trial.names, name)
-    turned = trial.turned(to_z_up(trial.up or _vertical(trial, chosen, own)))
+def _seen_names(trial: Markers) -> tuple[str, ...]:
+    """Markers that are seen at least once."""
+    return tuple(name for k, name in enumerate(trial.names) if not np.isnan(trial.position[:, k]).all())
+
+
+def _paths(trial: Markers, chosen: MarkerSet) -> _Paths:
+    """A set's markers' paths with z up and short gaps filled, the turned trial, how much was filled."""
+    found = recognise(_seen_names(trial), chosen)
+    turned = trial.turned(to_z_up(trial.up or _vertical(trial, found.chosen, found.own)))
     paths, filled = {}, 0
-    for marker, given in own.items():
+    for marker, given in found.own.items():
         done = signals.filled(turned.time, turned.of(given))
         paths[marker], filled = done.values, filled + done.filled
-    never = [marker for marker, path in paths.items() if np.isnan(path).all()]
-    paths = {marker: path for marker, path in paths.items() if marker not in never}
-    marker_set(paths, chosen.name)
-    return chosen, paths, turned, filled
-
-
-def with_sacrum(trial: Markers) -> Markers:
-    """The middle of LPSI and RPSI serves as SACR, as Plug-in Gait has it."""
-    own = {plain(name): name for name in trial.names}
-    if "SACR" in own or not {"LPSI", "RPSI"} <= set(own):
-        return trial
-    middle = (trial.of(own["LPSI"]) + trial.of(own["RPSI"])) / 2
-    position = np.concatenate([trial.position, middle[:, None]], axis=1)
-    return dataclasses.replace(trial, names=(*trial.names, "SACR"), position=position)
+    calm = calmed(turned.time, paths)
+    remarks = (*turned.remarks, found.sentence, *filter(None, [calm.remark]))
+    return _Paths(found, calm.paths, dataclasses.replace(turned, remarks=remarks), filled)
 
 
 def _vertical(trial: Markers, chosen: MarkerSet, own: Mapping[str, str]) -> Vertical:
     """The axis along which the pelvis is furthest above the feet."""
-    links = chosen.spots()
     groups: dict[bool, list[Array]] = {True: [], False: []}
     for marker, given in own.items():
-        link = links[marker][0]
-        if link == "pelvis" or link.endswith("sole_plate"):
-            groups[link == "pelvis"].append(trial.of(given))
+        segment = chosen.spots[marker].segment
+        if segment in ("pelvis", "foot"):
+            groups[segment == "pelvis"].append(trial.of(given))
     above = np.nanmean(groups[True], axis=(0, 1)) - np.nanmean(groups[False], axis=(0, 1))
     up = vertical_along(above)
     if up is None:
@@ -185,16 +225,16 @@ def _seen(places: MarkerPlaces, paths: Mapping[str, Array]) -> tuple[int, int]:
     """Start and stop of the longest run of frames in which every segment has its markers."""
     good = np.ones(len(next(iter(paths.values()))), dtype=bool)
     for link, names in places.names.items():
-        count = sum(~np.isnan(paths[name][:, 0]) for name in names)
-        good &= count >= (3 if link == "pelvis" else 2 if link.endswith("sole_plate") else 1)
+        count = sum(~np.isnan(paths[name][:, 0]) for name in names if name in paths)
+        good &= count >= fewest_on(link)
     start, stop = signals.longest_run(good)
     if stop - start < 2:
         raise GaitError("no two frames in a row show the markers of every segment")
     return start, stop
 
 
-def _gait(robot: Robot, q: Array, trial: Markers, span: tuple[int, int], chosen: MarkerSet) -> Gait:
-    start, stop = span
+def _gait(robot: Robot, q: Array, moving: _Paths, span: tuple[int, int]) -> Gait:
+    (start, stop), trial, chosen = span, moving.trial, moving.found.chosen
     time = trial.time[start:stop]
     events = tuple(event for event in trial.events if time[0] <= event.time <= time[-1])
     source = f"{trial.source}: markers ({chosen.name}) by least squares on a body scaled to them"

@@ -13,33 +13,33 @@ from exo_pin.formats import Markers, load_gait, load_markers
 from exo_pin.gait import normative_gait
 from exo_pin.gait.trial import UP_AXES, to_z_up
 from exo_pin.kinematics import poses
-from exo_pin.markers import SETS, load_walk, marker_set, reconstruct
-from exo_pin.markers.body_scale import Sizes, body_of
-from exo_pin.markers.marker_fit import human_robot, resized
+from exo_pin.markers import SETS, load_walk, reconstruct
 from exo_pin.markers.marker_places import marker_places
-from exo_pin.markers.reconstruction import with_sacrum
+from exo_pin.markers.person_robot import person_robot, resized
+from exo_pin.markers.person_sizes import Sizes, body_of
 from exo_pin.robot import load_robot
 
-SIZES = Sizes(0.17, (0.86, 0.85), 0.499, (0.29, 0.29), 0.08)
-FRAMES = 18
+SIZES = Sizes(0.17, (0.43, 0.425), (0.43, 0.425), (0.27, 0.27), 0.08)
+FRAMES = 24
+AT_100_HZ = 105
 ROUNDED = 1e-6  # [m] a body's sizes are kept to the micrometre
-ANGLE = 1.5  # [deg] rms: the size of the leg is learnt from its markers, and 1 mm is 5 deg at a straight knee
+ANGLE = 0.5  # [deg] rms: hips of some sets come from a regression that this person is off by 8 mm
+NOISY_ANGLE = 3.0  # [deg] rms, with markers that are 5 mm off
 SIZE = 0.01  # of a length
 OPENSIM_RMS = 0.0225  # [m] OpenSim's own on the same trial
+OURS = 0.0082  # [m] on the same trial
 MODELS = {"hip_flexion": 2.8, "knee_flexion": 6.3, "ankle_dorsiflexion": 3.5}  # [deg] rms between two models
 RECORDING = "opensim_subject01_walk/subject01_walk1.trc"
+GAIT2392 = "opensim-gait2392"
 
 
-@pytest.fixture(scope="module")
-def made():
-    """A walk, and the paths of gait2354's markers on it, z up."""
-    chosen = SETS["opensim-gait2354"]
-    body = body_of(SIZES, chosen, mass=None, sex="male")
+def made_of(name, samples=FRAMES):
+    """A walk, its body, and the paths of a set's markers on it at the set's places, z up."""
+    chosen = SETS[name]
+    body = body_of(SIZES, mass=None, sex="male")
     robot = load_robot(body)
-    walk = normative_gait("free", leg_length=body.leg_length, samples=FRAMES)
-    names = dict.fromkeys(chosen.spots())
-    pelvis = np.array([spot.place for link, spot in chosen.spots().values() if link == "pelvis"]) * 0.17
-    places = marker_places(chosen, SIZES, pelvis, names)
+    walk = normative_gait("free", leg_length=body.leg_length, samples=samples)
+    places = marker_places(chosen, SIZES, dict.fromkeys(chosen.spots))
     links = list(places.names)
     T = poses(robot, robot.from_gait(walk), links, base=walk.base)
     paths = {}
@@ -47,6 +47,11 @@ def made():
         p = T[:, i, None, :3, 3] + places.local[link] @ T[:, i, :3, :3].swapaxes(1, 2)
         paths |= dict(zip(places.names[link], np.moveaxis(p, 1, 0), strict=True))
     return walk, body, paths
+
+
+@pytest.fixture(scope="module")
+def made():
+    return made_of(GAIT2392)
 
 
 def trial(walk, paths, **more):
@@ -68,15 +73,14 @@ def test_a_known_walk_comes_back_from_its_markers(made, known_walk):
     assert found.total_rms < 0.003
     assert rms_degrees(found, walk).max() < ANGLE
     np.testing.assert_allclose(found.gait.base[:, :3, 3], walk.base[:, :3, 3], atol=0.01)
-    assert found.body.left_ankle_height == pytest.approx(
-        0.08, abs=0.02
-    )  # averaged walks leave the ground by 1 cm
+    # averaged walks leave the ground by 1 cm
+    assert found.body.left_ankle_height == pytest.approx(0.08, abs=0.02)
     for name in ("hip_width", "left_thigh", "right_shank"):
-        assert getattr(found.body, name) == pytest.approx(getattr(body, name), rel=3 * SIZE), name
+        assert getattr(found.body, name) == pytest.approx(getattr(body, name), rel=SIZE), name
     assert found.error.shape == (FRAMES, len(found.names))
     assert found.rms.shape == found.worst.shape == (FRAMES,)
     assert (found.worst >= found.rms).all()
-    assert "opensim-gait2354" in found.gait.source
+    assert GAIT2392 in found.gait.source
 
 
 def test_the_vertical_is_found_from_the_markers_themselves(made, known_walk):
@@ -111,8 +115,8 @@ def test_gaps_are_bridged_and_long_ones_cut_the_walk(made):
         if name.startswith("L.Ankle"):
             holes[name][:9] = np.nan
     short = reconstruct(trial(walk, holes, up="+z"))
-    assert len(short.gait) == 9
-    assert f"frames 9 to 17 of {FRAMES}" in short.gait.source
+    assert len(short.gait) == FRAMES - 9
+    assert f"frames 9 to {FRAMES - 1} of {FRAMES}" in short.gait.source
 
 
 def test_missing_markers_are_named(made):
@@ -122,9 +126,9 @@ def test_missing_markers_are_named(made):
         GaitError, match=r"left thigh has 0 of the 1 markers .*missing: L\.Thigh\.Upper.*; right"
     ):
         reconstruct(trial(walk, few, up="+z"))
-    without = {name: path for name, path in paths.items() if name != "R.Heel"}
-    with pytest.raises(GaitError, match=r"R\.Heel missing, which gives the scale"):
-        reconstruct(trial(walk, without, up="+z"))
+    without = {name: path for name, path in paths.items() if name != "R.ASIS"}
+    with pytest.raises(GaitError, match=r"R\.ASIS missing, which gives the scale"):
+        reconstruct(trial(walk, without, up="+z"), markers=GAIT2392)
     with pytest.raises(GaitError, match="which axis is up is not clear"):
         reconstruct(trial(walk, {name: path * 0 + 1 for name, path in paths.items()}))
     apart = {name: path.copy() for name, path in paths.items()}
@@ -149,43 +153,36 @@ def test_lengths_in_another_unit_than_the_file_states_are_named(made, unit, scal
         reconstruct(wrong)
 
 
+@pytest.mark.parametrize("name", SETS)
+def test_every_set_gives_the_angles_of_a_known_walk(name, rng):
+    walk, _, paths = made_of(name)
+    found = reconstruct(trial(walk, paths, up="+z"))
+    assert found.marker_set == name
+    assert rms_degrees(found, walk).max() < ANGLE
+    assert not found.doubts
+    walk, _, paths = made_of(name, AT_100_HZ)
+    noisy = {marker: path + rng.normal(0, 0.005 / np.sqrt(3), path.shape) for marker, path in paths.items()}
+    assert rms_degrees(reconstruct(trial(walk, noisy, up="+z")), walk).max() < NOISY_ANGLE
+
+
+def test_interchanged_sides_and_joints_out_of_range_are_doubted(made):
+    walk, _, paths = made
+    other = {name: name if name[0] == "V" else "LR"["RL".index(name[0])] + name[1:] for name in paths}
+    swapped = {other[name]: path for name, path in paths.items()}
+    assert any("interchanged" in doubt for doubt in reconstruct(trial(walk, swapped, up="+z")).doubts)
+    legs = {
+        other[name] if "ASIS" not in name and "PSIS" not in name else name: p for name, p in paths.items()
+    }
+    assert any("on the right of the right one" in x for x in reconstruct(trial(walk, legs, up="+z")).doubts)
+
+
 def test_a_resized_robot_stands_like_one_built_in_that_size(rng):
-    chosen, other = SETS["opensim-gait2354"], SIZES._replace(leg=(0.75, 0.80), thigh=0.52)
-    built, robot = human_robot(chosen, other), resized(human_robot(chosen, SIZES), other)
+    other = SIZES._replace(thigh=(0.39, 0.41), shank=(0.36, 0.39), hip_width=0.18)
+    built, robot = person_robot(other), resized(person_robot(SIZES), other)
     q = built.neutral
     q[7:] = rng.uniform(-0.3, 0.3, len(q) - 7)
-    links = sorted({link for link, _ in chosen.spots().values()})
+    links = sorted({spot.link for spot in SETS[GAIT2392].spots.values()})
     np.testing.assert_allclose(poses(robot, q, links), poses(built, q, links), atol=ROUNDED)
-
-
-def test_names_may_differ_in_case_and_marks():
-    own = [name.replace(".", "_").lower() for name in SETS["opensim-gait2354"].spots()]
-    chosen, found = marker_set([*own, "sternum"])
-    assert chosen.name == "opensim-gait2354"
-    assert found["R.Toe.Tip"] == "r_toe_tip"
-    with pytest.raises(UnknownNameError, match="marker set"):
-        marker_set(own, "gait2392")
-
-
-@pytest.mark.parametrize("name", SETS)
-def test_left_markers_are_the_mirror_image_and_outside(name):
-    spots = SETS[name].spots()
-    for marker, template in ((m, t) for t in SETS[name].paired for m in [t.format(S="R")]):
-        link, right = spots[marker]
-        other, left = spots[template.format(S="L")]
-        assert left.place == (right.place[0], -right.place[1], right.place[2])
-        assert other == link.replace("right", "left")
-    for lateral in ("KNE", "Knee.Lat", "ANK", "Ankle.Lat"):
-        for marker, (_, spot) in spots.items():
-            if marker.endswith(lateral):
-                assert (spot.place[1] < 0) == marker.startswith("R")
-
-
-def test_two_psis_markers_serve_as_the_sacrum():
-    position = np.arange(12.0).reshape(2, 2, 3)
-    trial = with_sacrum(Markers([0, 1], ("lpsi", "RPSI"), position))
-    np.testing.assert_array_equal(trial.of("SACR"), position.mean(axis=1))
-    assert with_sacrum(trial) is trial
 
 
 def thinned(whole, k):
@@ -202,13 +199,13 @@ def test_the_recording_is_met_better_than_by_opensim_and_its_angles_agree(shared
     found = reconstruct(thinned(load_markers(shared / RECORDING), 3))
     published = load_gait(shared / RECORDING.replace(".trc", "_ik_full_opensim46.mot"))
     published = dataclasses.replace(published, time=published.time[::3], q=published.q[::3], base=None)
-    assert found.total_rms <= OPENSIM_RMS
+    assert found.total_rms <= OURS < OPENSIM_RMS
     difference = rms_degrees(found, published)
     for movement, tolerance in MODELS.items():
         for side in ("left", "right"):
             assert difference[JOINTS.index(f"{side}_{movement}")] <= tolerance, movement
     assert found.body.hip_width == pytest.approx(0.171, abs=0.005)  # the scaled model's
-    assert found.body.left_thigh + found.body.left_shank == pytest.approx(0.879, abs=0.01)
+    assert found.body.left_thigh + found.body.left_shank == pytest.approx(0.895, abs=0.01)
 
 
 def test_a_plug_in_gait_trial_agrees_with_its_own_model(shared):
@@ -230,8 +227,8 @@ def test_a_plug_in_gait_trial_may_lack_a_knee_but_not_both(shared):
     whole = thinned(whole, 12)
     own = whole.renamed({"LKNE": "hidden"})
     assert reconstruct(own).total_rms < 0.010
-    with pytest.raises(GaitError, match="KNE and ANK of neither leg"):
-        reconstruct(own.renamed({"RKNE": "hidden too"}))
+    with pytest.raises(GaitError, match=r"right thigh has 0 of the 1 markers.* RTHI, RKNE"):
+        reconstruct(own.renamed({"RKNE": "hidden too", "RTHI": "gone"}), markers="plug-in-gait")
 
 
 def test_a_file_without_a_known_set_is_refused_in_one_line(tmp_path):
@@ -247,7 +244,7 @@ def test_a_file_without_a_known_set_is_refused_in_one_line(tmp_path):
     path = tmp_path / "x.trc"
     path.write_text("\n".join(lines))
     with pytest.raises(
-        FormatError, match=r"\(ball\) are of no known set; map them .*L/RASI.*V\.Sacral"
+        FormatError, match=r"\(ball\) are of no known set \(plug-in-gait, .*; --map OWN=NAME .*--model"
     ) as caught:
         load_walk(path)
     assert "\n" not in str(caught.value)
