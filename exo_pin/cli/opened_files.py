@@ -53,6 +53,7 @@ class OpenedFiles:
         *,
         static: str | None = None,
         markers: str | None = None,
+        model: str | None = None,
         mapping: tuple[tuple[str, str], ...] = (),
         mass: float | None = None,
         sex: Sex = "male",
@@ -62,7 +63,8 @@ class OpenedFiles:
         Args:
             path: The trial.
             static: File of a standing trial.
-            markers: Name of the marker set; None: the best match.
+            markers: Name or file of the marker set; None: the best match.
+            model: The OpenSim model that the trial's person was scaled to.
             mapping: Pairs of a marker's own name and its name in the set.
             mass: Of the person [kg]; None: by stature.
             sex: Whose segment masses.
@@ -73,12 +75,13 @@ class OpenedFiles:
         """
         from exo_pin.markers import load_walk
 
-        key = (Path(path), static, markers, mapping, mass, sex)
+        key = (Path(path), static, markers, model, mapping, mass, sex)
         if key not in self._walks:
             self._walks[key] = load_walk(
                 self.open(path, "markers"),
                 static=None if static is None else self.open(static, "markers"),
                 markers=markers,
+                model=model,
                 mapping=dict(mapping),
                 mass=mass,
                 sex=sex,

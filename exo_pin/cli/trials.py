@@ -54,14 +54,17 @@ def add(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--model",
         metavar="OSIM",
-        help="the OpenSim model of a .mot: axes, order and signs of its coordinates",
+        help="the OpenSim model of a .mot: axes, order and signs of its coordinates; of a trial: where "
+        "markers sit on the person that the model was scaled to",
     )
     group.add_argument(
         "--pelvis-order",
         metavar="A,B,C",
         help="without a model: the pelvis's turns from the ground on (default: tilt,list,rotation)",
     )
-    group.add_argument("--markers", metavar="SET", help="use a trial's markers, of this set or `auto`")
+    group.add_argument(
+        "--markers", metavar="SET", help="use a trial's markers, of this set, TOML file or `auto`"
+    )
     group.add_argument("--static", metavar="FILE", help="a standing trial that the body is scaled from")
     plate_options.add(group)
 
@@ -123,6 +126,7 @@ def found(args: argparse.Namespace) -> Reconstruction | None:
         path,
         static=args.static,
         markers=None if args.markers == "auto" else args.markers,
+        model=args.model,
         mapping=tuple(mapping(args).items()),
         mass=args.mass,
         sex=args.sex or "male",
@@ -165,8 +169,8 @@ def gait(args: argparse.Namespace) -> Gait | None:
     trial = found(args)
     if trial is None:
         return None
-    if args.model or args.pelvis_order:
-        raise FormatError(args.gait, "a model and an order of the pelvis's turns are for .mot and .sto files")
+    if args.pelvis_order:
+        raise FormatError(args.gait, "an order of the pelvis's turns is for .mot and .sto files")
     print(sentence(trial), file=sys.stderr)
     return trial.gait
 

@@ -48,11 +48,12 @@ _ANGLE_DAMPING = 1e-8
 
 @dataclass(frozen=True)
 class CalibratedBody:
-    """A calibrated body: its sizes, where the markers sit on it, and the robot of these sizes."""
+    """A calibrated body: its sizes, where the markers sit, the robot of these sizes; what was noticed."""
 
     sizes: Sizes
     places: MarkerPlaces
     robot: Robot
+    remarks: tuple[str, ...] = ()
 
 
 def some_frames(path: Array) -> Array:

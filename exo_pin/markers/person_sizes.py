@@ -28,6 +28,7 @@ class Sizes(NamedTuple):
         shank: Knee to ankle, down.
         foot: Heel to toe tip.
         ankle: Height of the ankle over the ground, or None.
+        foot_measured: Whether the markers gave the feet; False where they follow from the legs.
         knee_aside: Where the knee centres are forward and left of straight below the hip, at rest.
         ankle_aside: The same of the ankle centres below the knee.
     """
@@ -37,6 +38,7 @@ class Sizes(NamedTuple):
     shank: Pair
     foot: Pair
     ankle: float | None = None
+    foot_measured: bool = True
     knee_aside: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
     ankle_aside: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
 
@@ -96,7 +98,8 @@ def body_of(sizes: Sizes, *, mass: float | None, sex: Sex) -> Body:
     for k, side in enumerate(SIDES):
         measures[f"{side}_thigh"] = float(np.hypot(sizes.thigh[k], np.hypot(*sizes.knee_aside[k])))
         measures[f"{side}_shank"] = float(np.hypot(sizes.shank[k], np.hypot(*sizes.ankle_aside[k])))
-        measures[f"{side}_foot_length"] = sizes.foot[k]
+        if sizes.foot_measured:
+            measures[f"{side}_foot_length"] = sizes.foot[k]
         if sizes.ankle is not None:
             measures[f"{side}_ankle_height"] = sizes.ankle
     try:

@@ -179,7 +179,9 @@ def gaps(chosen: MarkerSet, found: Iterable[str]) -> Iterator[str]:
 
 
 def _unscaled(chosen: MarkerSet, found: Mapping[str, str]) -> Iterator[str]:
-    """Which markers of the pelvis's scale are not there."""
+    """Which markers of the pelvis's scale are not there; a model has its own scale."""
+    if chosen.sizes is not None:
+        return
     fronts = [marker for marker in chosen.marking("asis") if marker not in found]
     if fronts or len(chosen.marking("asis")) < 2:
         names = ", ".join(fronts) or "asis of both sides"

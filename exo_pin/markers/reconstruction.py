@@ -25,6 +25,8 @@ from exo_pin.markers.marker_fit import fit_poses
 from exo_pin.markers.marker_noise import calmed
 from exo_pin.markers.marker_places import MarkerPlaces
 from exo_pin.markers.marker_sets import find_set
+from exo_pin.markers.model_fit import model_body
+from exo_pin.markers.model_set import model_set
 from exo_pin.markers.person_sizes import body_of, check_lengths
 from exo_pin.markers.recognition import Recognised, fewest_on, recognise
 from exo_pin.markers.spots import MarkerSet
@@ -79,6 +81,7 @@ def load_walk(
     *,
     static: str | Path | TrialFile | None = None,
     markers: str | None = None,
+    model: str | Path | None = None,
     mapping: Mapping[str, str] = MappingProxyType({}),
     mass: float | None = None,
     sex: Sex = "male",
@@ -88,7 +91,8 @@ def load_walk(
     Args:
         path: The trial, or what `exo_pin.formats.open_trial` has read of it.
         static: The same of a standing trial.
-        markers: Name of the marker set.
+        markers: Name of the marker set, or its TOML file.
+        model: The OpenSim model (.osim) that was scaled to the person: its markers and lengths are used.
         mapping: The trial's own name of a marker -> the set's.
         mass: Of the person [kg].
         sex: Whose segment masses.
@@ -100,18 +104,29 @@ def load_walk(
     trial = load_markers(path).renamed(mapping)
     standing = None if static is None else load_markers(static).renamed(mapping)
     try:
-        return reconstruct(trial, static=standing, markers=markers, mass=mass, sex=sex)
+        chosen = _chosen(markers, model)
+        return reconstruct(trial, static=standing, markers=chosen, mass=mass, sex=sex)
     except FormatError:
         raise
     except GaitError as error:
         raise FormatError(path.path if isinstance(path, TrialFile) else path, str(error)) from error
 
 
+def _chosen(markers: str | None, model: str | Path | None) -> str | MarkerSet | None:
+    if model is None:
+        return markers
+    if markers is not None:
+        raise GaitError(
+            f"a marker set ({markers}) and a model ({Path(model).name}) are given; one is accepted"
+        )
+    return model_set(model)
+
+
 def reconstruct(
     trial: Markers,
     *,
     static: Markers | None = None,
-    markers: str | None = None,
+    markers: str | MarkerSet | None = None,
     mass: float | None = None,
     sex: Sex = "male",
 ) -> Reconstruction:
@@ -124,7 +139,7 @@ def reconstruct(
     Args:
         trial: The markers; z, y or x up.
         static: A standing trial of the same person and the same markers.
-        markers: Name of the marker set; None: the one whose markers are there.
+        markers: The marker set, its name, or its TOML file; None: the one whose markers are there.
         mass: Of the person [kg]; from the leg's length and a body-mass index of 22 if left out.
         sex: Whose segment masses.
 
@@ -134,16 +149,17 @@ def reconstruct(
     """
     if len(trial) < 2:
         raise GaitError("one frame is a posture, no walk; it can be the standing trial (--static) of another")
-    known = None if markers is None else find_set(markers)
+    known = find_set(markers) if isinstance(markers, str) else markers
     every = _seen_names(trial) + (() if static is None else _seen_names(static))
     chosen = recognise(dict.fromkeys(every), known).chosen
     moving = _paths(trial, chosen)
     model = _calibrated(moving, None if static is None else _paths(static, chosen), trial, static)
     places = model.places.only(moving.paths)
     start, stop = _seen(places, moving.paths)
-    used = {name: path[start:stop] for name, path in moving.paths.items()}
+    used = {name: moving.paths[name][start:stop] for row in places.names.values() for name in row}
     q, error, names = fit_poses(model.robot, places, used)
     gait = _gait(model.robot, q, moving, (start, stop))
+    gait = dataclasses.replace(gait, remarks=(*gait.remarks, *model.remarks))
     body = body_of(model.sizes, mass=mass, sex=sex)
     made = Reconstruction(gait, body, moving.found.chosen.name, names, error, moving.filled)
     misfit = misfit_doubts(made.total_rms, made.by_marker())
@@ -171,6 +187,8 @@ def _calibrated(
 ) -> CalibratedBody:
     """The body by the static trial's sizes and both trials' frames, or by the trial alone."""
     chosen = moving.found.chosen
+    if chosen.sizes is not None:
+        return model_body(chosen, chosen.sizes, moving.paths)
     first = standing or moving
     sizes, pelvis = first_sizes(chosen, first.paths)
     check_lengths(sizes, (static or trial).unit)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, get_args
 
 from exo_pin.anatomy.names import HipRegression, Segment, Side
+from exo_pin.markers.person_sizes import Sizes
 
 SEGMENTS: tuple[Segment, ...] = get_args(Segment)
 
@@ -52,6 +53,7 @@ class MarkerSet:
         spots: Marker -> where it sits.
         also: Marker -> further names that laboratories give it.
         known_as: Further names of the set.
+        sizes: Of the person, where the set is a model that was scaled to one; places are fixed then.
     """
 
     name: str
@@ -61,6 +63,7 @@ class MarkerSet:
     spots: Mapping[str, Spot]
     also: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     known_as: tuple[str, ...] = ()
+    sizes: Sizes | None = None
 
     def names(self, marker: str) -> tuple[str, ...]:
         """All names of a marker."""

@@ -8,6 +8,7 @@ from exo_pin.anatomy import SIDES, Body
 from exo_pin.anatomy.person import Measure, Person
 from exo_pin.anatomy.sized_body import SizedBody, sized_body
 from exo_pin.formats import TrialFile
+from exo_pin.formats.opensim.osim_person import model_person
 from exo_pin.markers.reconstruction import Reconstruction
 
 _FITTED = tuple(f"{side}_{name}" for side in SIDES for name in ("thigh", "shank"))
@@ -31,7 +32,11 @@ def trial_person(file: TrialFile, walk: Reconstruction | None, model: Path | Non
         FormatError: The model cannot be read.
     """
     stated = file.person(model)
-    return stated if walk is None else marker_person(walk).over(stated)
+    if walk is None:
+        return stated
+    if model is not None:  # the walk was solved on the model's lengths
+        return model_person(model).over(marker_person(walk)).over(stated)
+    return marker_person(walk).over(stated)
 
 
 def trial_body(file: TrialFile, walk: Reconstruction | None) -> SizedBody:
