@@ -17,7 +17,9 @@ from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.gait import Gait
+    from exo_pin.gait.marked_feet import FootMarkers
     from exo_pin.markers import Reconstruction
+    from exo_pin.robot import Robot
 
 _MARKER_ENDINGS = (".trc", ".c3d", ".csv", ".txt", ".tsv")
 """Of `exo_pin.formats.MARKER_FORMATS`, which takes time to import."""
@@ -162,6 +164,25 @@ def _person(args: argparse.Namespace) -> Person:
     model = None if args.model is None else Path(args.model)
     known = trial_person(files.open(args.gait), found(args), model)
     return known if args.static is None else known.over(files.open(args.static, "markers").person())
+
+
+def feet(args: argparse.Namespace, robot: Robot, walk: Gait) -> FootMarkers | None:
+    """Heel and toe markers of the arguments' trial; None where it has none, or GAIT is no trial.
+
+    Args:
+        args: The command's arguments.
+        robot: On the person's body.
+        walk: The walk of the trial.
+    """
+    if not (is_file(args) and may_hold_markers(Path(args.gait))):
+        return None
+    from exo_pin.formats import load_markers
+    from exo_pin.kinematics import foot_markers
+
+    try:
+        return foot_markers(load_markers(args.files.open(args.gait)), robot, walk)
+    except FormatError:  # a trial whose unit of length is not known has no lengths
+        return None
 
 
 def gait(args: argparse.Namespace) -> Gait | None:

@@ -36,6 +36,7 @@ def _number_to_json(name: str, found: WalkNumbers) -> dict[str, Any]:
         "sd": None if math.isnan(number.sd) else number.sd,
         "n": number.n,
         "unit": number.unit,
+        "measured_at": found.measured.get(name),
         "normal": found.verdicts.get(name),
         "usual": None if usual is None else usual._asdict(),
     }
@@ -54,6 +55,13 @@ def outliers_to_json(found: Sequence[CurveOutlier]) -> list[dict[str, Any]]:
 def count(cut: Cycles) -> str:
     """How many cycles of which foot, e.g. `3 cycles of the left foot`."""
     return f"{len(cut)} cycle{'s' * (len(cut) != 1)} of the {cut.side} foot"
+
+
+def print_measured(found: WalkNumbers) -> None:
+    """Where lengths, widths and speeds were measured, a line for each place."""
+    for where in dict.fromkeys(found.measured.values()):
+        names = ", ".join(name.replace("_", " ") for name, x in found.measured.items() if x == where)
+        print(f"measured at the {where}: {names}")
 
 
 def print_left_out(found: WalkNumbers) -> None:

@@ -57,7 +57,8 @@ def spatiotemporal(
 
     Args:
         time: `(n,)` times of the samples [s].
-        heels: `(n, 2, 2)` or `(n, 2, 3)` left and right heel in the world, z up [m].
+        heels: `(n, 2, 2)` or `(n, 2, 3)` left and right heel in the world, z up [m]; NaN where it was not
+            seen: what needs it is left out.
         events: Heel strikes and toe-offs.
         pelvis: `(n, 2)` where the pelvis is, if it moves in the world [m].
         spans: The strides to count (`exo_pin.gait.strides`); default: all between two strikes of a foot.
@@ -73,7 +74,7 @@ def spatiotemporal(
     Raises:
         GaitError: No foot with two heel strikes, or unusable arrays.
     """
-    t, p = frozen(time, "time"), frozen(heels, "heels")
+    t, p = frozen(time, "time"), np.array(heels, dtype=float)
     check_time(t, periodic=False)
     if p.ndim != 3 or p.shape[:2] != (len(t), 2) or p.shape[2] not in (2, 3):
         raise GaitError(f"heels have shape {p.shape}, expected ({len(t)}, 2, 3)")
@@ -94,8 +95,9 @@ def spatiotemporal(
         **_steps(walk, spans, ground, until),
         **_phases(walk, counted),
     }
-    out = {name: _number(values, unit) for name, (unit, values) in measures.items()}
-    return out | _symmetry({name: np.asarray(values) for name, (_, values) in measures.items()})
+    known = {name: (unit, _known(values)) for name, (unit, values) in measures.items()}
+    out = {name: _number(values, unit) for name, (unit, values) in known.items() if len(values)}
+    return out | _symmetry({name: values for name, (_, values) in known.items() if len(values)})
 
 
 def ground_velocity(
@@ -147,6 +149,7 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     for side in SIDES:
         spans = list(flat_times(walk.events, side))
         moves = [(walk.at(side, b) - walk.at(side, a)) / (b - a) for a, b in spans]
+        moves = [move for move in moves if np.isfinite(move).all()]
         resting += [np.median(moves, axis=0)] if moves else []
     velocity = np.mean(resting, axis=0) if resting else np.zeros(2)
     along = np.zeros(2)
@@ -168,8 +171,9 @@ def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) ->
         around = [span for span in (begins.get((a.side, a.time)), ends.get((b.side, b.time))) if span]
         if a.side == b.side or not around or a.time > until - SAME_TIME:
             continue
-        course = sum((_path(walk, span, ground) for span in around), np.zeros(2))
-        forward = course / max(float(np.linalg.norm(course)), 1e-9)
+        courses = [_path(walk, span, ground) for span in around]
+        course = sum((path for path in courses if np.isfinite(path).all()), np.zeros(2))
+        forward = course / (float(np.linalg.norm(course)) or np.nan)
         step = walk.at(b.side, b.time) - walk.at(a.side, a.time) - ground * (b.time - a.time)
         lengths[b.side].append(float(step @ forward))
         times[b.side].append(b.time - a.time)
@@ -224,6 +228,12 @@ def _symmetry(values: Mapping[str, Array]) -> dict[str, Number]:
         each = _number(200 * (left[:n] - right[:n]) / (left[:n] + right[:n]), "%")
         out[f"{name}_symmetry"] = Number(float(index), each.sd, n, "%")
     return out
+
+
+def _known(values: ArrayLike) -> Array:
+    """The values that are known, without NaN."""
+    x = np.asarray(values, dtype=float)
+    return np.asarray(x[np.isfinite(x)])
 
 
 def _number(values: ArrayLike, unit: str) -> Number:

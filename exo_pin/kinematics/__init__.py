@@ -3,6 +3,7 @@
 from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.event_differences import EventDifference, disagreements, event_differences
+from exo_pin.kinematics.foot_markers import foot_markers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
@@ -36,6 +37,7 @@ __all__ = [
     "disagreements",
     "event_differences",
     "events",
+    "foot_markers",
     "jacobian",
     "joint_frames",
     "joint_rates",

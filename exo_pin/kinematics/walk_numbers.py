@@ -14,12 +14,20 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, Norm, Number, Stride, against_normal, manner, normal, strides
 from exo_pin.gait.manner import contacts_are_measured
+from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.gait.published_ranges import CITATIONS
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import unrolled
+from exo_pin.gait.toe_clearance import toe_clearances
 from exo_pin.kinematics.motion import poses
 from exo_pin.kinematics.sole_contact import with_events
 from exo_pin.robot import Robot
+
+ON_THE_MODEL = "model's feet"
+"""Where lengths are measured without markers: at the heel of the sole, the ball for clearance."""
+
+_HELD = 1e-3
+"""A pelvis that goes up and down by less [m] was held: heights of the feet say nothing then."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -31,6 +39,7 @@ class WalkNumbers:
         numbers: By name; empty where the walk has no cycles.
         usual: The usual range of a number, by name.
         verdicts: `within`, `below` or `above` the usual range, by name.
+        measured: Where each length, speed and width was measured, by name.
         missing: Why there are no numbers; empty where there are.
         manner: Walk or run.
         unknown: Which numbers are left out, and why; empty where none is.
@@ -40,6 +49,7 @@ class WalkNumbers:
     numbers: Mapping[str, Number] = field(default_factory=dict)
     usual: Mapping[str, Norm] = field(default_factory=dict)
     verdicts: Mapping[str, str] = field(default_factory=dict)
+    measured: Mapping[str, str] = field(default_factory=dict)
     missing: str = ""
     manner: Manner = "walk"
     unknown: str = ""
@@ -72,20 +82,33 @@ _OF_CONTACT = ("stance", "swing", "stance_symmetry", "double_support", "flight")
 """Ends of the names of numbers that need to know how long a foot stands."""
 
 
-def walk_numbers(robot: Robot, gait: Gait) -> WalkNumbers:
-    """The numbers of a walk; lengths are those of this robot's legs.
+def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> WalkNumbers:
+    """The numbers of a walk; lengths by the markers of the feet, else those of this robot's legs.
 
     Without a body the leg length is unknown: then only the speed has a usual range.
+
+    Args:
+        robot: On the person's body.
+        gait: The walk.
+        feet: Heel and toe markers of its trial.
     """
     try:
+        gait = with_events(robot, gait)
         numbers = spatiotemporal(robot, gait)
     except GaitError as error:
         return WalkNumbers(missing=str(error))
+    numbers |= _model_clearances(robot, gait)
+    measured = {name: ON_THE_MODEL for name, number in numbers.items() if number.unit in ("m", "m/s")}
+    if feet is not None:
+        seen = _at_markers(gait, feet)
+        numbers |= {name: number for name, (number, _) in seen.items()}
+        measured |= {name: where for name, (_, where) in seen.items()}
     leg_length = robot.body.leg_length if robot.body else math.nan
     if manner(gait) == "run":  # the published ranges are those of walks
         return WalkNumbers(
             strides=tuple(x for side in SIDES for x in strides(gait, side)),
-            numbers=numbers,
+            numbers={name: x for name, x in numbers.items() if not name.endswith("clearance")},
+            measured={name: x for name, x in measured.items() if not name.endswith("clearance")},
             manner="run",
             unknown="" if contacts_are_measured(gait) else _UNKNOWN,
         )
@@ -94,6 +117,7 @@ def walk_numbers(robot: Robot, gait: Gait) -> WalkNumbers:
         numbers=numbers,
         usual=normal(numbers, leg_length=leg_length),
         verdicts=against_normal(numbers, leg_length=leg_length),
+        measured=measured,
     )
 
 
@@ -117,18 +141,42 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
 
 def _all_numbers(robot: Robot, gait: Gait) -> dict[str, Number]:
     walk = unrolled(gait)
+    return _numbers(gait, walk.time, sole_points(robot, walk)[:, :, 0])
+
+
+def _numbers(gait: Gait, time: Array, heels: Array) -> dict[str, Number]:
+    """The numbers of a gait with events, its heels `(n, 2, 3)` at times `(n,)`; raises `GaitError`."""
+    walk = unrolled(gait)
     spans = [span for side in SIDES for span in strides(walk, side)]
     counted = [span for span in spans if not span.why]
     if spans and not counted:
         raise GaitError(f"no gait cycles found: {spans[0].why}")
     return numbers_of(
-        walk.time,
-        sole_points(robot, walk)[:, :, 0],
+        time,
+        heels,
         walk.events,
         pelvis=None if walk.base is None else walk.base[:, :2, 3],
         spans=counted,
         until=gait.duration if gait.periodic else float("inf"),
     )
+
+
+def _at_markers(gait: Gait, feet: FootMarkers) -> dict[str, tuple[Number, str]]:
+    """What heel and toe markers measure of a gait with events, and where that is."""
+    heels, toes = (f"markers {', '.join(names)}" for names in (feet.heel_names, feet.toe_names))
+    lengths = _numbers(gait, feet.time, feet.heels)
+    found = {name: (number, heels) for name, number in lengths.items() if number.unit in ("m", "m/s")}
+    symmetry = "step_length_symmetry"
+    found |= {symmetry: (lengths[symmetry], heels)} if symmetry in lengths else {}
+    clearances = toe_clearances(feet.time, feet.toes, gait.events)
+    return found | {name: (number, toes) for name, number in clearances.items()}
+
+
+def _model_clearances(robot: Robot, gait: Gait) -> dict[str, Number]:
+    """Clearance of the balls of the model's feet; nothing where the pelvis's height was not recorded."""
+    if gait.base is None or np.ptp(gait.base[:, 2, 3]) < _HELD:
+        return {}
+    return toe_clearances(gait.time, sole_points(robot, gait)[:, :, 1], gait.events)
 
 
 def sole_points(robot: Robot, gait: Gait) -> Array:

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from exo_pin.anatomy import SIDES
-from exo_pin.cli import body_options, options, show, walk_output
+from exo_pin.cli import body_options, options, show, trials, walk_output
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
     cut = cycles(gait, args.side or side_with_more_strides(gait))
-    found = walk_numbers(robot, gait)
+    found = walk_numbers(robot, gait, trials.feet(args, robot, gait))
     if args.json:
         facts = {"outliers": walk_output.outliers_to_json(outliers), "plausibility": verdict.facts()}
         show.as_json(walk_output.numbers_to_json(gait, found) | {"source": gait.source} | facts)
@@ -76,6 +76,8 @@ def _rounded(value: float, unit: str) -> str:
 
 
 def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers) -> None:
+    from exo_pin.kinematics.walk_numbers import ON_THE_MODEL
+
     sources = walk_output.event_sources(gait)
     print(f"source: {gait.source or 'not stated'}; events: {', '.join(sources)}")
     title = f"{args.gait}: {walk_output.count(cut)}"
@@ -87,7 +89,9 @@ def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers
         print(f"{k}  {citation}")
     of_walks = found.manner == "walk"
     print(f"-  {'no published range was checked' if of_walks else 'published ranges are those of walks'}")
-    if args.gait not in SPEEDS and not body_options.sized(args).own_legs:
+    walk_output.print_measured(found)
+    on_model = ON_THE_MODEL in found.measured.values()
+    if on_model and args.gait not in SPEEDS and not body_options.sized(args).own_legs:
         print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
     if cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")

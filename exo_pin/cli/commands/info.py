@@ -85,7 +85,7 @@ def _found(args: argparse.Namespace) -> _Info:
         differences=args.event_differences,
         ranges=range_demands(robot, robot.from_gait(gait)),
         peak_speeds=np.abs(gait.dq).max(axis=0),
-        numbers=walk_numbers(robot, gait),
+        numbers=walk_numbers(robot, gait, trials.feet(args, robot, gait)),
         outliers=curve_outliers(gait),
         plausibility=options.plausibility(args, robot, gait),
         body=body,

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import body_options, options, shot_options, show, shown_walk, torque_options
+from exo_pin.cli import body_options, options, shot_options, show, shown_walk, torque_options, trials
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -95,6 +95,7 @@ def run(args: argparse.Namespace) -> int:
             cutoff=args.filter or None,
             torques=given,
             plausibility=options.plausibility(args, person, gait),
+            feet=trials.feet(args, person, gait),
         )
         page = report.html(document)
     write_text(args.output, page)

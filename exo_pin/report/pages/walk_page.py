@@ -11,6 +11,7 @@ from exo_pin import crosscheck, kinematics
 from exo_pin.anatomy.names import Speed
 from exo_pin.gait import Gait, Plausibility, Torques
 from exo_pin.gait.heading import heading, turned
+from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.kinematics import joint_rates
 from exo_pin.report.document.blocks import Document, Paragraph, Player, Section, Tiles
 from exo_pin.report.sections import actuators, agreement, fact_tables, foot_paths
@@ -50,6 +51,7 @@ def walk(
     cutoff: float | None = 6.0,
     torques: Torques | None = None,
     plausibility: Plausibility | None = None,
+    feet: FootMarkers | None = None,
 ) -> Document:
     """The report of a walk.
 
@@ -64,6 +66,7 @@ def walk(
             are differentiated by their Fourier series and never filtered.
         torques: Joint torques at the walk's times, if known.
         plausibility: The verdict on the walk as it was read; default: by its motion on this robot.
+        feet: Heel and toe markers of the walk's trial, where lengths are measured.
 
     Raises:
         DescriptionError: The robot was not made for a body.
@@ -85,7 +88,7 @@ def walk(
         foot_paths.paths(robot, gait, forward),
         centre_of_mass(robot, gait),
         foot_paths.contact(gait),
-        fact_tables.numbers(robot, gait),
+        fact_tables.numbers(robot, gait, feet),
         agreement.inverse(gait, verdict),
         agreement.agreement(verdict),
         fact_tables.choices(robot, gait, {"forward": forward, **info.choices}, rates.how, normal),

@@ -9,6 +9,7 @@ from exo_pin.anatomy.body import Leg
 from exo_pin.anatomy.names import Speed
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
+from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.kinematics import walk_numbers
 from exo_pin.report.document.blocks import Block, Paragraph, Section, Table
 from exo_pin.robot import Robot
@@ -66,10 +67,16 @@ def device(robot: Robot) -> Section:
     return Section("Device", (Table(("device", ""), rows, prose=True),))
 
 
-def numbers(robot: Robot, gait: Gait) -> Section:
-    """Cadence, speed, lengths and phases against published ranges."""
+def numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> Section:
+    """Cadence, speed, lengths and phases against published ranges.
+
+    Args:
+        robot: On the person's body.
+        gait: The walk.
+        feet: Heel and toe markers of its trial.
+    """
     title = "Spatiotemporal numbers"
-    found = walk_numbers(robot, gait)
+    found = walk_numbers(robot, gait, feet)
     if found.missing:
         return Section(title, (Paragraph(f"None: {found.missing}."),))
     rows = []
@@ -84,7 +91,8 @@ def numbers(robot: Robot, gait: Gait) -> Section:
     cited = "; ".join(f"{key}: {text}" for key, text in sorted(found.citations.items()))
     run = f"A run: both feet are in the air between contacts. {found.unknown}".strip()
     manner = [Paragraph(run, "note")] if found.manner == "run" else []
-    note = f"Lengths are those of this body's legs. Usual ranges: {cited or 'none'}."
+    places = ", ".join(dict.fromkeys(found.measured.values()))
+    note = f"Lengths are measured at: {places}. Usual ranges: {cited or 'none'}."
     left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in found.left_out)
     gone = [Paragraph(f"Left out: {'; '.join(left)}.", "note")] if found.left_out else []
     return Section(title, (Table(columns, rows), *manner, *gone, Paragraph(note, "note")))
