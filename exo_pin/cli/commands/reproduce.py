@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
@@ -63,16 +64,17 @@ def run(args: argparse.Namespace) -> int:
     recording = None
     if args.gait is not None:
         recording, _ = options.with_events(robot, options.gait_from(args, body))
+    _check_folder(Path(args.output))
+    with show.busy("drawing"):
+        document = report.reproduction(
+            robot,
+            gait,
+            recording=recording,
+            recording_name=Path(args.gait or "").name,
+            rendered=_rendered(args, robot, gait),
+            when=moment(),
+        )
     with _folder(args.output) as folder:
-        with show.busy("drawing"):
-            document = report.reproduction(
-                robot,
-                gait,
-                recording=recording,
-                recording_name=Path(args.gait or "").name,
-                rendered=_rendered(args, robot, gait),
-                when=moment(),
-            )
         size = _write(document, folder)
     print(f"{folder / 'reproduction.html'}: {size / 1e6:.1f} MB; reproduction.md and")
     print(f"{len(document.drawings)} figures are beside it")
@@ -89,6 +91,15 @@ def _write(document: Document, folder: Path) -> int:
     page = report.html(document)
     write_text(folder / "reproduction.html", page)
     return len(page.encode())
+
+
+def _check_folder(folder: Path) -> None:
+    """Refuse what cannot be made a folder before the work begins; it is made at its end."""
+    there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise FormatError(folder, f"cannot be made a folder: {there} is a file")
+    if not os.access(there, os.W_OK):
+        raise FormatError(folder, f"cannot be made a folder: {there} may not be written to")
 
 
 @contextmanager
