@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import sys
 from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, show, torque_options, walk_output
+import numpy as np
+
+from exo_pin.cli import device_options, options, show, torque_options, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
     from exo_pin.crosscheck import Recovery
+    from exo_pin.feasible import DeviceWalk
     from exo_pin.gait import Gait, Plausibility
     from exo_pin.robot import Robot
     from exo_pin.viewer import Scene, SceneOptions
+
+
+_BELT = 0.005
+"""A belt that is beyond the device's speeds by less than this is not [m/s]: rounding of two decimals."""
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -36,11 +44,8 @@ def add(parser: argparse.ArgumentParser) -> None:
         default="carried",
         help="carried: the pelvis follows so that the standing foot stays on the belt (default); still: held",
     )
-    parser.add_argument(
-        "--device",
-        default="exo12",
-        metavar="DEVICE",
-        help="name or device file: another one walks as near to the feet as it can (see `exo-pin devices`)",
+    device_options.add(
+        parser, "name or device file: another one walks as near to the feet as it can (see `exo-pin devices`)"
     )
     parser.add_argument(
         "--robot",
@@ -88,11 +93,38 @@ def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     verdict = options.plausibility(args, robot, gait)
     walk_output.print_plausibility(verdict)
     name = Path(args.gait).name
-    found = _recovered(robot, gait, name) if args.device == "exo12" else _on_device(args, body, gait)
+    answer = device_options.answer(args, body, gait, hip_order=args.hip_order)
+    plain = not answer.device.locked and answer.conditions.pelvis == "recorded"
+    found = _recovered(robot, answer, name) if plain else _on_device(args, answer)
     chosen = _scene_options(
         args, body, name + found.title, [gait.source, note, *_judged(robot, gait, verdict), *found.notes]
     )
-    return viewer.exoskeleton_scene(found.robot, found.gait, chosen, reference=gait, torques=torques)
+    if answer.conditions.pelvis == "device" and answer.device.pelvis != "free":
+        chosen = dataclasses.replace(chosen, support="still")  # only the record's slides move the pelvis
+    same = np.array_equal(gait.time, answer.gait.time)
+    scene = viewer.exoskeleton_scene(
+        found.robot,
+        found.gait,
+        chosen,
+        reference=gait if same else answer.gait,
+        torques=torques if same else None,
+    )
+    return _with_belt_warning(scene, answer)
+
+
+def _with_belt_warning(scene: Scene, answer: DeviceWalk) -> Scene:
+    """The scene with a warning where its belt runs faster or slower than the device's."""
+    belt, speeds = scene.facts.marks.belt, answer.device.treadmill
+    if belt is None or speeds is None or speeds[0] - _BELT <= belt.speed <= speeds[1] + _BELT:
+        return scene
+    warning = (
+        f"Warning: the belt runs at {belt.speed:.2f} m/s here; {answer.title}'s runs at {speeds[0]:.2f} to "
+        f"{speeds[1]:.2f} m/s."
+    )
+    print(warning)
+    return dataclasses.replace(
+        scene, facts=dataclasses.replace(scene.facts, notes=(warning, *scene.facts.notes))
+    )
 
 
 def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
@@ -170,35 +202,27 @@ class _Recovered:
     notes: list[str]
 
 
-def _recovered(robot: Robot, gait: Gait, name: str) -> _Recovered:
-    """The walk from the gait's feet on the exoskeleton, and where the gait goes beyond the joint limits."""
+def _recovered(robot: Robot, answer: DeviceWalk, name: str) -> _Recovered:
+    """The walk from its feet on the exoskeleton, and the verdict on it."""
     from exo_pin import crosscheck
 
-    recovery = crosscheck.recover(robot, gait)
+    recovery = crosscheck.recover(robot, answer.recorded if answer.verdict == "no" else answer.gait)
     _print(recovery, name)
-    beyond = _beyond(robot, gait)
-    for line in beyond:
-        print(line)
-    return _Recovered(robot, recovery.gait, "", beyond)
+    print(answer.sentence)
+    return _Recovered(robot, recovery.gait, "", [f"{answer.sentence}."])
 
 
-def _on_device(args: argparse.Namespace, body: Body, gait: Gait) -> _Recovered:
-    """The device's best motion towards the gait's feet, on a robot with its appearance."""
-    from exo_pin import devices
-    from exo_pin.compare import compare, dressed
+def _on_device(args: argparse.Namespace, answer: DeviceWalk) -> _Recovered:
+    """The device's best motion towards the feet, on a robot with its appearance, and the verdict on it."""
+    from exo_pin.compare import dressed
 
     if args.hip_order != "clinical":
         raise DescriptionError("--hip-order is for exo12; other devices are shown with clinical hips")
-    device = devices.find(args.device)
-    loss = compare(gait, [device], body).best[0]
-    rms, most = 1e3 * loss.rms, 1e3 * float(loss.sole_error.max())
-    title = device.title or device.name
-    note = (
-        f"{title} ({device.motors} motors), the pelvis moving as recorded: the soles "
-        f"miss the recorded ones by {rms:.1f} mm rms, {most:.1f} mm at most."
-    )
-    print(note)
-    return _Recovered(dressed(loss.motion.robot), loss.motion.gait, f" on {title.partition(' (')[0]}", [note])
+    print(f"{answer.loss_sentence}\n{answer.sentence}")
+    motion = answer.loss.motion
+    title = f" on {answer.title.partition(' (')[0]}"
+    notes = [f"{answer.sentence}.", answer.loss_sentence]
+    return _Recovered(dressed(motion.robot), motion.gait, title, notes)
 
 
 def _print(recovery: Recovery, name: str) -> None:
@@ -211,23 +235,3 @@ def _print(recovery: Recovery, name: str) -> None:
         ["largest rotation error", f"{track.rotation_error[within].max(initial=0.0):.1e} rad"],
     ]
     show.table(f"{name} on the exoskeleton", ["inverse kinematics", ""], rows)
-
-
-def _beyond(robot: Robot, gait: Gait) -> list[str]:
-    """Where the gait goes beyond the joint limits, a sentence each."""
-    from exo_pin.demand import range_demands
-
-    lines = []
-    for joint, demand in range_demands(robot, robot.from_gait(gait)).items():
-        if demand.samples_outside:
-            required = _degrees(demand.lowest, demand.highest)
-            available = _degrees(*demand.available)
-            lines.append(
-                f"{joint}: {demand.samples_outside} frames outside its limits: "
-                f"required {required}, available {available}"
-            )
-    return lines
-
-
-def _degrees(low: float, high: float) -> str:
-    return f"{show.fixed(degrees(low))} .. {show.fixed(degrees(high))} deg"

@@ -7,7 +7,16 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import body_options, options, shot_options, show, shown_walk, torque_options, trials
+from exo_pin.cli import (
+    body_options,
+    device_options,
+    options,
+    shot_options,
+    show,
+    shown_walk,
+    torque_options,
+    trials,
+)
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -74,7 +83,13 @@ def run(args: argparse.Namespace) -> int:
     given = torque_options.given(args)
     person = load_robot(body)
     gait, note = options.with_events(person, gait)
-    robot = load_robot(body, device=args.device, hip_order=args.hip_order)
+    answer = device_options.answer(args, body, gait, hip_order=args.hip_order)
+    device = answer.device.carried()  # the gait itself says where the pelvis is
+    robot = load_robot(body, device=device, hip_order=args.hip_order)
+    shown = answer.gait if args.torques is None else gait
+    if device.locked:
+        shown = answer.loss.motion.gait
+    print(f"{answer.loss_sentence}\n{answer.sentence}")
     name = Path(args.gait).name
     info = report.ReportInfo(
         title=args.title or f"Gait report: {name}",
@@ -87,7 +102,7 @@ def run(args: argparse.Namespace) -> int:
     with show.busy("reporting"):
         document = report.walk(
             robot,
-            gait,
+            shown,
             info=info,
             player=player,
             still=still,
@@ -96,6 +111,7 @@ def run(args: argparse.Namespace) -> int:
             torques=given,
             plausibility=options.plausibility(args, person, gait),
             feet=trials.feet(args, person, gait),
+            answer=answer,
         )
         page = report.html(document)
     write_text(args.output, page)

@@ -9,6 +9,7 @@ import numpy as np
 
 from exo_pin import crosscheck, kinematics
 from exo_pin.anatomy.names import Speed
+from exo_pin.feasible import DeviceWalk
 from exo_pin.gait import Gait, Plausibility, Torques
 from exo_pin.gait.heading import heading, turned
 from exo_pin.gait.marked_feet import FootMarkers
@@ -52,6 +53,7 @@ def walk(
     torques: Torques | None = None,
     plausibility: Plausibility | None = None,
     feet: FootMarkers | None = None,
+    answer: DeviceWalk | None = None,
 ) -> Document:
     """The report of a walk.
 
@@ -67,6 +69,7 @@ def walk(
         torques: Joint torques at the walk's times, if known.
         plausibility: The verdict on the walk as it was read; default: by its motion on this robot.
         feet: Heel and toe markers of the walk's trial, where lengths are measured.
+        answer: The device's answer to the walk: verdict, reason and loss, stated first.
 
     Raises:
         DescriptionError: The robot was not made for a body.
@@ -77,11 +80,12 @@ def walk(
     verdict = crosscheck.check(robot, gait)
     rates = joint_rates(robot, gait, cutoff=cutoff)
     sections = [
+        *([] if answer is None else [_answered(answer)]),
         _summary(gait, info, verdict, plausibility or kinematics.plausibility(robot, gait)),
         fact_tables.body(robot),
         fact_tables.device(robot),
         *([_played(player, info.title, still)] if player else []),
-        curves(robot, gait, normal),
+        curves(robot, gait, normal, None if answer is None or not answer.device.locked else answer.gait),
         ranges(robot, gait),
         actuators.rates(robot, gait, rates),
         *([actuators.torques(robot, gait, torques)] if torques else []),
@@ -95,6 +99,18 @@ def walk(
     ]
     under = [f"{name}: {words}" for name, words in (("walk", info.what), ("who", info.who)) if words]
     return Document(info.title, "; ".join([*under, *([info.when] if info.when else [])]), tuple(sections))
+
+
+def _answered(answer: DeviceWalk) -> Section:
+    """The verdict on device and walk with its reason, and what the soles lose."""
+    words = {"fits": "fits", "concession": "fits with a concession", "no": "does not fit"}
+    tiles = (
+        (f"{answer.title} and this walk", words[answer.verdict], answer.ok),
+        ("soles miss the walk's, rms", f"{1e3 * answer.loss.rms:.1f} mm", None),
+        ("motors", str(answer.device.motors), None),
+    )
+    blocks = (Tiles(tiles), Paragraph(f"{answer.sentence}."), Paragraph(answer.loss_sentence))
+    return Section("Verdict", blocks)
 
 
 def _ahead(gait: Gait) -> tuple[Gait, str]:
@@ -112,7 +128,11 @@ def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check, read: Plau
     outside = verdict.joints_outside
     tiles = (
         ("the walk as it was read", read.word, not read.reasons),
-        ("verdict of all checks", "all is well" if verdict.ok else "no: see below", verdict.ok),
+        (
+            "cross-checks of the model",
+            "all agree" if verdict.consistent else _disagreement(verdict),
+            verdict.consistent,
+        ),
         ("joints outside their limits", str(len(outside)), not outside),
         ("frames whose feet were reached", f"{int(track.converged.sum())} of {len(track)}", verdict.ik_ok),
         ("largest disagreement of four models [m, rotation entries]", f"{apart:.0e}", verdict.fk_ok),
@@ -123,6 +143,15 @@ def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check, read: Plau
     kind = "One cycle that repeats." if gait.periodic else "A recording that does not repeat."
     reasons = [Paragraph(f"Doubtful: {reason}") for reason in read.reasons]
     return Section("Summary", (Tiles(tiles), *reasons, Paragraph(f"{words} {kind}")))
+
+
+def _disagreement(verdict: crosscheck.Check) -> str:
+    reasons = (
+        (verdict.fk_ok, "forward kinematics differ"),
+        (verdict.ik_ok, "inverse kinematics missed feet"),
+        (verdict.angles_ok, "recovered angles differ"),
+    )
+    return "; ".join(words for ok, words in reasons if not ok)
 
 
 def _played(player: str, title: str, still: bytes) -> Section:

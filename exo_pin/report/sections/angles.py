@@ -24,13 +24,14 @@ NORMATIVE_BAND_SOURCE = (
 _LEAST = 20.0  # [deg] smallest extent of an angle's axis
 
 
-def curves(robot: Robot, gait: Gait, normal: Speed | None) -> Section:
+def curves(robot: Robot, gait: Gait, normal: Speed | None, person: Gait | None = None) -> Section:
     """Six charts, both legs in each.
 
     Args:
         robot: The device on a body.
         gait: The walk.
         normal: Speed of the normative band; None: no band.
+        person: The person's walk, dashed beside the device's; None: not drawn.
     """
     found = leg_cycles(gait)
     if not found:
@@ -44,14 +45,19 @@ def curves(robot: Robot, gait: Gait, normal: Speed | None) -> Section:
         if (name := joint("left", movement)) in robot.joints
         for k in [robot.joints.index(name)]
     }
-    drawings = charts(found, speed=normal, limits=limits)
+    drawings = charts(found, speed=normal, limits=limits, person=() if person is None else leg_cycles(person))
     band = "" if normal is None else " Grey band: " + NORMATIVE_BAND_SOURCE.format(speed=normal)
     caption = "; ".join(leg.note for leg in found) + ". Angles of the walk as given, not filtered." + band
+    caption += "" if person is None else " Solid: the device; dashed: the person."
     return Section("Joint angles over the gait cycle", (Figure(drawings, caption),))
 
 
 def charts(
-    found: Sequence[LegCycle], *, speed: Speed | None, limits: Mapping[Movement, tuple[float, float]]
+    found: Sequence[LegCycle],
+    *,
+    speed: Speed | None,
+    limits: Mapping[Movement, tuple[float, float]],
+    person: Sequence[LegCycle] = (),
 ) -> tuple[Drawing, ...]:
     """Six charts over the cycle, both legs in each, with the normative band behind them.
 
@@ -59,8 +65,9 @@ def charts(
         found: The curves of each leg.
         speed: Which normative band to draw; None: none.
         limits: By movement, the joint's range [rad].
+        person: The person's curves, dashed.
     """
-    return tuple(_joint(k, movement, found, speed, limits) for k, movement in enumerate(MOVEMENTS))
+    return tuple(_joint(k, movement, found, speed, limits, person) for k, movement in enumerate(MOVEMENTS))
 
 
 def _joint(
@@ -69,8 +76,12 @@ def _joint(
     found: Sequence[LegCycle],
     speed: Speed | None,
     limits: Mapping[Movement, tuple[float, float]],
+    person: Sequence[LegCycle],
 ) -> Drawing:
     bands, curves, spans = [], [], []
+    for leg in person:
+        label = f"{leg.side}, person"
+        curves.append(Curve(leg.percent, np.degrees(leg.q[:, k]), svg.SIDE_COLOURS[leg.side], label, "3 3"))
     if speed is not None:
         percent, mean, sd = normal(speed, k)
         bands.append(Band(percent, mean - sd, mean + sd, "#7d8894", "normal, ±1 sd", 0.28))

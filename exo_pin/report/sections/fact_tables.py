@@ -58,7 +58,8 @@ def _unit(name: str) -> str:
 def device(robot: Robot) -> Section:
     """What the device is and drives, and the source of its numbers."""
     made = robot.device
-    rows = [["name", robot.name], ["driven joints", str(len(robot.joints))]]
+    rows = [["name", robot.name], ["joints that move", str(len(robot.joints))]]
+    rows += [] if made is None else [["motors", str(made.motors)]]
     rows.append(["hip axes, from the pelvis outwards", robot.hip_order])
     if made is not None:
         rows += [["title", made.title or made.name], ["source", made.source]]

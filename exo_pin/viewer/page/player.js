@@ -64,7 +64,10 @@ class Player {
     this.part("title").textContent = header.title;
     this.part("subtitle").textContent = header.subtitle;
     this.part("notes").replaceChildren(
-      ...header.notes.map((note) => Object.assign(document.createElement("p"), { textContent: note })),
+      ...header.notes.map((note) => Object.assign(document.createElement("p"), {
+        textContent: note,
+        className: note.startsWith("Warning:") ? "warning" : "",
+      })),
     );
     this.part("dashed-title").textContent = header.reference;
     this.part("dotted-title").textContent = header.compared;
