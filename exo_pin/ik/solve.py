@@ -103,7 +103,10 @@ def _auto(task: Problem, settings: Auto) -> Track:
             dls.refine_leg(task, f, leg, buffer)
         else:
             batch.write_approximate_seeds(task, f, leg, near, buffer)
-        dls.solve_leg(task, f, leg, iterative, buffer)
+        if not (exact and exact.complete):
+            dls.solve_leg(task, f, leg, iterative, buffer, complete=near.complete)
+        dls.settle_leg(task, subtree, iterative, buffer)
+        dls.follow_leg(task, subtree, leg, iterative, buffer)
     return buffer.track(task, settings.tolerance)
 
 
@@ -149,6 +152,7 @@ def _iterate(task: Problem, subtree: Subtree, settings: Dls, buffer: SolutionBuf
     else:
         seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, leg.columns].T
         dls.solve_leg(task, task.places_of(subtree)[0], leg, settings, buffer, seed=seed)
+        dls.settle_leg(task, subtree, settings, buffer, after_steps=True)
 
 
 SOLVERS: dict[type, Solver] = {Auto: _auto, ClosedForm: _closed_form, Dls: _least_squares}

@@ -14,8 +14,7 @@ from exo_pin.gait import normative_gait
 from exo_pin.ik.least_squares.cost import evaluate, weighted_targets
 from exo_pin.ik.least_squares.driver import minimise
 from exo_pin.ik.least_squares.single_sample import SampleKernel
-from exo_pin.ik.least_squares.step_limit import step_limits
-from exo_pin.ik.least_squares.subtree_kernel import SubtreeKernel
+from exo_pin.ik.least_squares.subtree_kernel import SubtreeKernel, step_limits
 from exo_pin.ik.problem import problem
 from exo_pin.kinematics import poses
 from exo_pin.robot import Subtree, load_robot

@@ -2,31 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
 from exo_pin.arrays import Array, Index, Mask, beside, to_host
 from exo_pin.ik.least_squares.cost import weighted_targets
-from exo_pin.ik.least_squares.driver import Minimum, minimise, minimise_with_restarts
+from exo_pin.ik.least_squares.driver import (
+    QUICK,
+    Minimum,
+    minimise,
+    minimise_with_restarts,
+    quick,
+    quick_minimum,
+)
 from exo_pin.ik.least_squares.leg_kernel import LegKernel
+from exo_pin.ik.least_squares.nearest_posture import NearestPosture
 from exo_pin.ik.least_squares.single_sample import SampleKernel
-from exo_pin.ik.least_squares.step_limit import step_limits
-from exo_pin.ik.least_squares.subtree_kernel import SubtreeKernel
+from exo_pin.ik.least_squares.subtree_kernel import SubtreeKernel, step_limits
 from exo_pin.ik.problem import SOLVED_BY, Problem, SolutionBuffer, problem
 from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal, Target
 from exo_pin.robot import LegAxes, Robot, Subtree
 
 _COMPROMISE = Dls(tolerance=1e-10)  # no target is expected to be met
+_OUTSIDE = 0.2  # [rad] beyond a limit: more than what calibrated axes move an answer
 _ROUNDING, _ROUGH = 1e-13, 1e-6  # errors between these are worth a refinement [m, rad]
 
 
 def solve_leg(
-    task: Problem, f: int, leg: LegAxes, settings: Dls, buffer: SolutionBuffer, *, seed: Array | None = None
+    task: Problem,
+    f: int,
+    leg: LegAxes,
+    settings: Dls,
+    buffer: SolutionBuffer,
+    *,
+    seed: Array | None = None,
+    complete: bool = False,
 ) -> None:
-    """Fill in the answers for those samples of a leg that are not within the tolerance.
+    """Look for answers to those samples of a leg that are not within the tolerance.
+
+    Where there is none, `settle_leg` has to follow: these steps creep towards a compromise.
 
     Args:
         task: The problem.
@@ -35,6 +54,7 @@ def solve_leg(
         settings: Tolerance, weights, number of steps and restarts.
         buffer: Where the answers go.
         seed: Where the samples start (6, n) [rad]; what the buffer holds if left out.
+        complete: Whether the start is near the only answer, so that there is none where it leaves the limits.
     """
     with np.errstate(invalid="ignore"):
         rest = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
@@ -43,12 +63,84 @@ def solve_leg(
     spot = np.ix_(rest, leg.columns)
     begin = to_host(buffer.q[spot]).T if seed is None else seed[:, rest]
     reachable = np.asarray(~(to_host(buffer.slack[rest, f]) < -leg.reach_error))
+    if complete:
+        outside = np.maximum(leg.lower[:, None] - begin, begin - leg.upper[:, None])
+        reachable &= ~(outside.max(axis=0) > _OUTSIDE)
     kernel = _leg_kernel(task.goals[f], leg, rest, settings)
-    answer = minimise_with_restarts(kernel, begin, settings, retry=reachable)
-    buffer.q[spot] = beside(answer.q.T, buffer.q)
+    _write(quick_minimum(kernel, begin, settings, reachable), buffer, rest, f, leg.columns)
+
+
+def _write(answer: Minimum, buffer: SolutionBuffer, rest: Index, f: int, columns: Index) -> None:
+    """Put the answers to some samples of a leg into the buffer.
+
+    Args:
+        answer: The answers to m samples.
+        buffer: Where they go.
+        rest: Numbers of the samples (m,).
+        f: Which target it is.
+        columns: Where the leg's joints stand in q (6,).
+    """
+    buffer.q[np.ix_(rest, columns)] = beside(answer.q.T, buffer.q)
     buffer.errors[:, rest, f] = beside(answer.errors[:, 0], buffer.q)
     buffer.steps[rest] += beside(answer.steps, buffer.q)
     buffer.solver[rest] = SOLVED_BY.index("dls")
+
+
+def settle_leg(
+    task: Problem, subtree: Subtree, settings: Dls, buffer: SolutionBuffer, *, after_steps: bool = False
+) -> None:
+    """Bring those samples of a leg that have no answer to the nearest posture, by Newton steps.
+
+    Args:
+        task: The problem.
+        subtree: The leg's joints.
+        settings: Tolerance, weights, number of steps.
+        buffer: It holds where they start, and takes the postures.
+        after_steps: Whether they have had quick steps already, which count.
+    """
+    if after_steps and settings.max_iterations <= QUICK:
+        return
+    settings = quick(settings, after_steps=after_steps)
+    f, columns, arrays = task.places_of(subtree)[0], subtree.columns, subtree.arrays
+    rest = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
+    if not len(rest):
+        return
+    assert arrays is not None  # six revolute joints
+    targets = weighted_targets(arrays, [_on_host(task.goals[f].only(rest))], settings)
+    kernel = SubtreeKernel(arrays, targets, subtree.lower[:, None], subtree.upper[:, None])
+    begin = to_host(buffer.q[np.ix_(rest, columns)]).T
+    _write(minimise(kernel, begin, settings), buffer, rest, f, columns)
+
+
+def follow_leg(task: Problem, subtree: Subtree, leg: LegAxes, settings: Dls, buffer: SolutionBuffer) -> None:
+    """Let the missed samples of a leg follow their neighbours where its joints would jump.
+
+    Each was solved on its own, and of several minima neighbours may have found different ones.
+
+    Args:
+        task: The problem.
+        subtree: The leg's joints.
+        leg: Their axes.
+        settings: Tolerance and weights.
+        buffer: Holds the nearest postures.
+    """
+    f, arrays = task.places_of(subtree)[0], subtree.arrays
+    missed = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
+    if task.n < 2 or not len(missed):
+        return
+    assert arrays is not None  # six revolute joints
+    near = np.unique(np.clip(np.concatenate([missed - 1, missed, missed + 1]), 0, task.n - 1))
+    goal, spot = _on_host(task.goals[f].only(near)), np.ix_(near, subtree.columns)
+    q = to_host(buffer.q[spot])
+    posture, followed = _posture(goal, leg, settings), q.copy()
+    for a, b in np.flatnonzero(np.diff(np.pad(np.isin(near, missed), 1))).reshape(-1, 2):
+        stretch = np.arange(max(a - 1, 0), min(b + 1, len(near)))  # with the sample before and the one after
+        most = step_limits(arrays, [goal.only(stretch)])
+        if (np.abs(np.diff(q[stretch], axis=0)) > most[1:]).any():
+            followed[a:b] = posture.between(q[stretch[0]], q[stretch[-1]], _poses(goal, range(a, b)))
+    if (followed != q).any():
+        buffer.q[spot] = beside(followed, buffer.q)
+        settle_leg(task, subtree, settings, buffer)
 
 
 def refine_leg(task: Problem, f: int, leg: LegAxes, buffer: SolutionBuffer) -> None:
@@ -110,14 +202,15 @@ def solve_in_order(task: Problem, subtree: Subtree, settings: Dls, buffer: Solut
     most = step_limits(subtree.arrays, goals) if compromise and warm and subtree.arrays else None
     weights = settings.position_weight, settings.rotation_weight
     kernel = SampleKernel(subtree, subtree.model.createData(), goals, 0, *weights, compromise)
-    seed = subtree.middle if own else task.seed[subtree.columns]
+    seed, missed = subtree.middle if own else task.seed[subtree.columns], 0
     for k in range(task.n):
         if own:
             seed = task.seed[k, subtree.columns]
         damping = 0.0 if k == 0 and not own else settings.damping  # the first sample has none before it
         here = replace(kernel, k=k, damping=damping, start=seed)
         retry = near[k : k + 1] & (damping == 0.0)
-        answer = minimise_with_restarts(here, seed[:, None], settings, retry=retry)
+        answer = _sample(here, seed, settings, retry, missed if warm else 0)
+        missed = 0 if answer.reached(settings.tolerance)[0] else missed + 1
         if most is not None and _jumps(answer, seed, most[k], settings.tolerance):
             limited = subtree.narrowed(seed - most[k], seed + most[k])
             slow = replace(here, subtree=limited, damping=settings.damping)
@@ -128,6 +221,28 @@ def solve_in_order(task: Problem, subtree: Subtree, settings: Dls, buffer: Solut
         if warm:
             seed = answer.q[:, 0]
     buffer.solver[:] = SOLVED_BY.index("dls")
+
+
+def _sample(kernel: SampleKernel, seed: Array, settings: Dls, retry: Mask, missed: int) -> Minimum:
+    """The answer to one sample; where there is none, by Newton steps, which do not creep.
+
+    Args:
+        kernel: The cost.
+        seed: Where it starts (nq,).
+        settings: Tolerance, number of steps and of restarts.
+        retry: Whether another start may reach the targets (1,).
+        missed: How many samples right before it have no answer; they and this one share the restarts.
+    """
+    count = settings.restarts
+    starts = range(count) if not (missed and count) else [missed % count]
+    if kernel.compromise or kernel.subtree.floating or kernel.damping:
+        return minimise_with_restarts(kernel, seed[:, None], settings, retry=retry, starts=starts)
+    out = quick_minimum(kernel, seed[:, None], settings, retry, starts)
+    if out.reached(settings.tolerance)[0] or settings.max_iterations <= QUICK:
+        return out
+    nearest = minimise(replace(kernel, compromise=True), out.q, quick(settings, after_steps=True))
+    nearest.steps += out.steps
+    return nearest
 
 
 def settle(
@@ -173,6 +288,22 @@ def _leg_kernel(goal: Goal, leg: LegAxes, samples: Index, settings: Dls) -> LegK
         position_weight=settings.position_weight * goal.weight[0, 0],
         rotation_weight=settings.rotation_weight * goal.rotation_weight,
     )
+
+
+def _on_host(goal: Goal) -> Goal:
+    R = None if goal.R is None else to_host(goal.R)
+    return replace(goal, p=to_host(goal.p), R=R, weight=to_host(goal.weight))
+
+
+def _posture(goal: Goal, leg: LegAxes, settings: Dls) -> NearestPosture:
+    weights = settings.position_weight * goal.weight[0, 0], settings.rotation_weight * goal.rotation_weight
+    return NearestPosture(leg, tolerance=settings.tolerance, max_iterations=QUICK, weights=weights)
+
+
+def _poses(goal: Goal, samples: Iterable[int]) -> list[Any]:
+    """Target poses (SE3) of a leg."""
+    assert goal.R is not None  # as above
+    return [pin.SE3(goal.R[k], goal.p[k, 0]) for k in samples]
 
 
 def _reachable(task: Problem, subtree: Subtree, buffer: SolutionBuffer) -> Mask:

@@ -13,7 +13,8 @@ The samples iterate together in a pool, which they leave when they have ended.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,7 +25,12 @@ from exo_pin.ik.settings import Dls
 _LESS, _MORE = 0.25, 4.0  # factors of the damping after a step that lowered the cost, or did not
 _MOST = 1e30  # damping factor of a sample that has ended: it stands still until it leaves
 _POOL = 6000  # samples that iterate at once: what stays in a core's cache
+_NEAR = 1e-6  # cost of a sample that creeps towards a target within its reach, a straight knee for example
 _LEAVING = 4  # samples leave the pool when this fraction of it has ended, one in so many
+
+
+QUICK = 50
+"""Steps in which a start reaches a target that it can reach; without one the steps only creep."""
 
 
 @dataclass(eq=False)
@@ -57,7 +63,15 @@ class Minimum:
         return Minimum(self.q[:, samples], self.errors[..., samples], self.cost[samples], self.steps[samples])
 
 
-def minimise_with_restarts(kernel: RestartableKernel, seed: Array, settings: Dls, *, retry: Mask) -> Minimum:
+def minimise_with_restarts(
+    kernel: RestartableKernel,
+    seed: Array,
+    settings: Dls,
+    *,
+    retry: Mask,
+    starts: Iterable[int] | None = None,
+    first: Minimum | None = None,
+) -> Minimum:
     """The minimum that each seed leads to; from other starts where that got stuck short of its targets.
 
     The answer of another start counts only where it meets the targets, so that a sample out of reach stays
@@ -68,9 +82,11 @@ def minimise_with_restarts(kernel: RestartableKernel, seed: Array, settings: Dls
         seed: Where each sample starts (nq, n).
         settings: Tolerance, number of steps and of restarts.
         retry: The samples (n,) whose targets another start may reach.
+        starts: Numbers of the restarts; all if left out.
+        first: Where the seeds have led to, if that is known.
     """
-    out = minimise(kernel, seed, settings)
-    for i in range(settings.restarts):
+    out = minimise(kernel, seed, settings) if first is None else first
+    for i in range(settings.restarts) if starts is None else starts:
         stuck = np.flatnonzero(retry & ~out.reached(settings.tolerance))
         if not len(stuck):
             break
@@ -80,6 +96,37 @@ def minimise_with_restarts(kernel: RestartableKernel, seed: Array, settings: Dls
         good = again.reached(settings.tolerance)
         out.put(stuck[good], again.only(good))
     return out
+
+
+def quick_minimum(
+    kernel: RestartableKernel, seed: Array, settings: Dls, retry: Mask, starts: Iterable[int] | None = None
+) -> Minimum:
+    """`minimise_with_restarts` in few steps where the targets are far, in all of them where they are near.
+
+    Args:
+        kernel: The cost of n samples.
+        seed: Where each sample starts (nq, n).
+        settings: Tolerance, number of steps and of restarts.
+        retry: The samples (n,) whose targets another start may reach.
+        starts: Numbers of the restarts; all if left out.
+    """
+    out = minimise(kernel, seed, quick(settings))
+    left = ~out.reached(settings.tolerance)
+    for near, chosen in ((True, settings), (False, quick(settings))):
+        part = np.flatnonzero(left & ((out.cost < _NEAR) == near))
+        if len(part):
+            own, known = kernel.only(part), None if near else out.only(part)
+            again = minimise_with_restarts(
+                own, seed[:, part], chosen, retry=retry[part], starts=starts, first=known
+            )
+            out.put(part, again)
+    return out
+
+
+def quick(settings: Dls, *, after_steps: bool = False) -> Dls:
+    """The settings with few steps; `after_steps`: of those that are left after quick steps."""
+    left = settings.max_iterations - (QUICK if after_steps else 0)
+    return replace(settings, max_iterations=min(left, QUICK))
 
 
 def minimise(kernel: Kernel, seed: Array, settings: Dls) -> Minimum:

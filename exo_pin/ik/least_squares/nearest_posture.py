@@ -33,14 +33,18 @@ _DIAGONAL = slice(None, None, LEG_JOINTS + 1)
 class NearestPosture:
     """The nearest posture of one leg within its limits, followed from sample to sample."""
 
-    def __init__(self, leg: LegAxes, *, tolerance: float, max_iterations: int) -> None:
+    def __init__(
+        self, leg: LegAxes, *, tolerance: float, max_iterations: int, weights: Sequence[float] = (1.0, 1.0)
+    ) -> None:
         """Prepare Pinocchio's model of the leg alone.
 
         Args:
             leg: The leg.
             tolerance: A target is met, and the iteration ends, below this error [m, rad].
             max_iterations: Steps for one sample.
+            weights: Of a position error [1/m] and of a rotation error [1/rad].
         """
+        self._weights = None if set(weights) == {1.0} else np.repeat(weights, 3)
         self._leg, self._met, self._max_iterations = leg, tolerance**2, max_iterations
         self._lower, self._upper = leg.lower, leg.upper
         self._model = bare_legs([leg])
@@ -67,6 +71,25 @@ class NearestPosture:
             other, least = self.from_start(seed, target)
             return other if nearer or least <= self._met else posture
         return posture
+
+    def between(self, before: Array, after: Array, targets: Sequence[Any]) -> Array:
+        """Postures (m, 6) of a stretch followed from both ends, joined where the largest step is least.
+
+        Args:
+            before: Angles (6,) of the sample before the stretch [rad].
+            after: Angles (6,) of the sample after it [rad].
+            targets: m target poses (SE3), one after another.
+        """
+        there, back = [before], [after]
+        for target in targets:
+            there.append(self.from_start(there[-1], target)[0])
+        for target in reversed(targets):
+            back.append(self.from_start(back[-1], target)[0])
+        F, B = np.array(there), np.array(back[::-1])  # F[k + 1] and B[k] answer target k
+        rise = np.maximum.accumulate(np.append(0.0, _largest_steps(F)))  # of F up to k
+        fall = np.maximum.accumulate(np.append(_largest_steps(B), 0.0)[::-1])[::-1]  # of B from k on
+        k = int(np.argmin(np.maximum(np.maximum(rise, fall), np.abs(B - F).max(axis=1))))
+        return np.concatenate([F[1 : k + 1], B[k:-1]])
 
     def _within_reach(self, target: Any) -> bool:
         """Whether the leg is long enough for the target, or may be."""
@@ -106,7 +129,11 @@ class NearestPosture:
         apart = pin.updateFramePlacement(self._model, self._data, self._tip).actInv(target)
         e = np.empty(LEG_JOINTS)
         e[:3], e[3:] = apart.translation, pin.log3(apart.rotation)
-        return float(_dot(e, e)), e, pin.getFrameJacobian(self._model, self._data, self._tip, _LOCAL)
+        J = pin.getFrameJacobian(self._model, self._data, self._tip, _LOCAL)
+        if self._weights is not None:
+            e *= self._weights
+            J = self._weights[:, None] * J
+        return float(_dot(e, e)), e, J
 
 
 def bare_legs(legs: Sequence[LegAxes]) -> Any:
@@ -121,6 +148,11 @@ def bare_legs(legs: Sequence[LegAxes]) -> Any:
         tip = pin.SE3(own.tip[:3, :3], own.tip[:3, 3] - before)
         model.addFrame(pin.Frame(own.frame, parent, tip, pin.FrameType.OP_FRAME))
     return model
+
+
+def _largest_steps(q: Array) -> Array:
+    """The largest change of an angle between each sample and the next (m - 1,)."""
+    return np.asarray(np.abs(np.diff(q, axis=0)).max(axis=1))
 
 
 def _bounded_step(A: Array, b: Array, low: list[float], high: list[float]) -> Array:

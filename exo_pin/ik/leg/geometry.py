@@ -40,6 +40,7 @@ class ClosedFormGeometry:
         middle: Middle of each joint's range (6,) [rad].
         wraps: Joints whose angle may leave (-180, 180] degrees before it is folded to the range.
         steep: Whether the second hip joint comes near +-90 degrees.
+        complete: Whether the limits hold no other branch: there is no answer but the formula's.
     """
 
     left: Array
@@ -56,6 +57,7 @@ class ClosedFormGeometry:
     middle: tuple[float, ...]
     wraps: tuple[int, ...]
     steep: bool
+    complete: bool
 
 
 def exact_geometry(leg: LegAxes) -> ClosedFormGeometry | None:
@@ -119,6 +121,7 @@ def _geometry(leg: LegAxes) -> ClosedFormGeometry | None:
             j for j in range(6) if offset[j] or abs(leg.lower[j]) > math.pi or abs(leg.upper[j]) > math.pi
         ),
         steep=bool(max(abs(leg.lower[1] + third), abs(leg.upper[1] + third)) > _ARCSINE),
+        complete=_complete(leg, offset),
     )
 
 
@@ -137,6 +140,14 @@ def _one_branch(leg: LegAxes, offset: tuple[float, ...]) -> bool:
     one_side = max(knee[0], -knee[1]) > -1e-9 or abs(knee[0] + knee[1]) > 0.5 * (knee[1] - knee[0])
     folds = abs(middle[1] - offset[1]) < math.pi / 2 and abs(middle[5]) < math.pi / 2
     return bool(one_side and folds and np.isfinite(middle).all())
+
+
+def _complete(leg: LegAxes, offset: tuple[float, ...]) -> bool:
+    """Whether the limits leave no other branch at all, `_one_branch` being true."""
+    knee = sorted((float(leg.lower[3] - offset[3]), float(leg.upper[3] - offset[3])))
+    folds = [abs(limit[j] - offset[j]) for j in (1, 5) for limit in (leg.lower, leg.upper)]
+    turns = (leg.upper - leg.lower).max() < 2.0 * math.pi  # no angle twice
+    return bool(max(knee[0], -knee[1]) > -1e-9 and max(folds) < math.pi / 2 and turns)
 
 
 def _hip_frame(a: Array) -> tuple[Array, float, float]:
