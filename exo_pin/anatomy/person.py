@@ -107,9 +107,15 @@ def _plausible(sizes: Mapping[str, Measure]) -> tuple[dict[str, Measure], list[s
 def _consistent(sizes: dict[str, Measure], why: list[str]) -> tuple[dict[str, Measure], list[str]]:
     """The sizes that go with each other: legs with each other and the stature, mass with the stature."""
     wrong: dict[str, str] = {}
-    for found in (_unequal_legs, _unfitting_stature, _unfitting_shares, _unfitting_mass):
-        wrong |= found({name: size for name, size in sizes.items() if name not in wrong})
-    reasons = [f"{text}, and is not used" for text in dict.fromkeys(wrong.values())]
+    checks = (_unequal_legs, _unfitting_stature, _impossible_legs, _unfitting_shares, _unfitting_mass)
+    found = True
+    while found:  # what is left out changes the height that the rest is compared with
+        found = False
+        for check in checks:
+            more = check({name: size for name, size in sizes.items() if name not in wrong})
+            more = {name: text for name, text in more.items() if name in sizes}
+            found, wrong = found or bool(more), wrong | more
+    reasons = [f"{text}: not used" for text in dict.fromkeys(wrong.values())]
     return {name: size for name, size in sizes.items() if name not in wrong}, [*why, *reasons]
 
 
@@ -136,6 +142,16 @@ def _unfitting_stature(sizes: Mapping[str, Measure]) -> dict[str, str]:
         else:
             wrong["stature"] = f"{height} does not go with {what}"
     return wrong
+
+
+def _impossible_legs(sizes: Mapping[str, Measure]) -> dict[str, str]:
+    """All legs with the reason, where the stature that follows from them is nobody's."""
+    height, size = _height(sizes), SIZES["stature"]
+    if "stature" in sizes or height is None or size.low <= height <= size.high:
+        return {}
+    return dict.fromkeys(
+        _names(SIDES), f"legs of {height * LEG_PART:.2f} m from hip to ankle are no person's"
+    )
 
 
 def _unfitting_shares(sizes: Mapping[str, Measure]) -> dict[str, str]:

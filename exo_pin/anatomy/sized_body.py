@@ -53,7 +53,7 @@ def sized_body(person: Person, *, sex: Sex = "male", given: Mapping[str, Any] | 
         UnknownNameError: A name in `given` is no field of `Body`.
     """
     fields = both_sides(given or {})
-    known = _both_legs(person.sizes)
+    known = dict(Person(_both_legs(person.sizes)).sizes)
     if "stature" in fields:
         known = {name: measure for name, measure in known.items() if name == "mass"}
     known |= _parts_of_feet(known)
@@ -119,7 +119,8 @@ def _stature(known: Mapping[str, Measure]) -> Measure:
     if leg is None:
         return Measure(DEFAULT_STATURE, "default", "nothing states it")
     said = "by the legs from hip to ankle (Drillis & Contini 1966)"
-    return Measure(leg / LEG_PART, known["left_thigh"].origin, said)
+    thigh = next(known[name] for name in ("left_thigh", "right_thigh") if name in known)
+    return Measure(leg / LEG_PART, thigh.origin, said)
 
 
 def _mass(known: Mapping[str, Measure]) -> Measure:
