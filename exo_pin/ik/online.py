@@ -72,6 +72,7 @@ class Online:
         self.q = robot.neutral if q0 is None else np.array(q0, dtype=float)
         if self.q.shape != (robot.nq,):
             raise DescriptionError(f"q0 has shape {self.q.shape}; ({robot.nq},) is accepted")
+        self.q = robot.unit_quaternion(self.q)
         axes = [_own_leg(robot, name) for name in frames]
         self._legs = [_Leg(own, robot, tolerance / 4, max_iterations, dt) for own in axes]
         self._formulas = [leg.exact for leg in self._legs if leg.exact is not None]

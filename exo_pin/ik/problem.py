@@ -158,6 +158,7 @@ def _start(
             raise DescriptionError(f"q0 has shape {q.shape}; ({robot.nq},) or ({n}, {robot.nq}) is accepted")
         if not np.isfinite(q).all():
             raise DescriptionError("q0 holds NaN or infinity")
+        q = robot.unit_quaternion(q)
         return q, q
     rest = robot.neutral
     joints = rest[robot.nq - len(robot.joints) :]

@@ -183,14 +183,14 @@ def attitude(robot: Robot, q: npt.ArrayLike, frame: str, *, relative_to: str) ->
 
 
 def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
-    """Configurations as rows (n, nq) and the shape in front, checked.
+    """Configurations as rows (n, nq) and the shape in front, checked, their quaternions of length 1.
 
     Raises:
-        DescriptionError: The last axis is not nq.
+        DescriptionError: The last axis is not nq, or the quaternion of a floating base is zero.
     """
     q = np.asarray(q, dtype=float)
     shape = robot.angles(q).shape[:-1]
-    return q.reshape(-1, robot.nq), shape
+    return robot.unit_quaternion(q.reshape(-1, robot.nq)), shape
 
 
 def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:

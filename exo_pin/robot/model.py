@@ -25,6 +25,7 @@ from exo_pin.robot.leg_axes import LegAxes, read_leg
 from exo_pin.robot.subtree import Subtree, independent_groups, read_subtree, supporting_joints
 
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
+_UNIT, _NO_ATTITUDE = 1e-12, 1e-6  # of a quaternion: length 1 but for rounding; no direction is left
 _HIPS = HIP_ORDERS["clinical"]
 
 LIMIT_TOLERANCE = 1e-9
@@ -136,6 +137,23 @@ class Robot:
                 f"q has shape {q.shape}; (..., {self.nq}) is accepted, in the order of Robot.joints"
             )
         return q[..., self.nq - len(self.joints) :]
+
+    def unit_quaternion(self, q: Array) -> Array:
+        """Configurations (..., nq) whose floating base has a quaternion of length 1, where they are not yet.
+
+        Raises:
+            DescriptionError: A quaternion is zero: it is no attitude.
+        """
+        if self.base == "fixed" or not q.size:
+            return q
+        length = np.linalg.norm(q[..., 3:_FREE], axis=-1, keepdims=True)
+        if (length < _NO_ATTITUDE).any():
+            raise DescriptionError(
+                "the quaternion of the floating base (q[3:7]: x y z w) is zero; 0 0 0 1 is upright"
+            )
+        if (np.abs(length - 1.0) <= _UNIT).all():
+            return q
+        return np.concatenate([q[..., :3], q[..., 3:_FREE] / length, q[..., _FREE:]], axis=-1)
 
     def outside(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> Mask:
         """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from exo_pin import ik
 from exo_pin.anatomy import CORNERS, FEET, HIP_ORDERS, JOINTS, Body
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, normative_gait
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot, load_urdf
 
@@ -128,3 +129,28 @@ def test_unknown_device_order_and_base_are_refused():
     for words in ({"device": "x"}, {"hip_order": "x"}, {"base": "x"}):
         with pytest.raises(UnknownNameError):
             load_robot(**words)
+
+
+def test_quaternions_of_any_length_are_attitudes_and_zero_is_refused():
+    robot = load_robot(base="floating")
+    q = np.array(robot.from_gait(normative_gait("free"))[:5])
+    T = poses(robot, q)
+    longer = q.copy()
+    longer[:, 3:7] *= np.array([[2.0], [0.5], [1.0], [-3.0], [1e3]])
+    np.testing.assert_allclose(poses(robot, longer), T, atol=1e-12)  # rounding of a walk some metres long
+    assert robot.unit_quaternion(q) is q
+    targets = {"left_foot": T[:, 0], "right_foot": T[:, 1]}
+    track = ik.track(robot, targets, longer)
+    np.testing.assert_allclose(np.linalg.norm(track.q[:, 3:7], axis=1), 1.0, atol=1e-12)
+    loop = ik.Online(robot, longer[1])
+    np.testing.assert_allclose(loop.step(*T[1]), q[1], atol=1e-9)
+    assert loop.reached
+    zero = q.copy()
+    zero[3, 3:7] = 0.0
+    for use in (
+        lambda: poses(robot, zero),
+        lambda: ik.track(robot, targets, zero),
+        lambda: ik.Online(robot, zero[3]),
+    ):
+        with pytest.raises(DescriptionError, match="quaternion"):
+            use()
