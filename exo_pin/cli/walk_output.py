@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Cycles, Gait, Plausibility
+    from exo_pin.gait import Cycles, Gait, Plausibility, StrideEstimate
     from exo_pin.kinematics import CurveOutlier, WalkNumbers
 
 _OUTLIERS_PRINTED = 6  # JSON holds all
@@ -25,8 +25,16 @@ def numbers_to_json(gait: Gait, found: WalkNumbers) -> dict[str, Any]:
         "spatiotemporal": {name: _number_to_json(name, found) for name in found.numbers},
         "sources": found.citations,
         "no_cycles": found.missing,
+        "estimate": _estimate_to_json(found.estimate),
         "unknown": found.unknown,
     }
+
+
+def _estimate_to_json(found: StrideEstimate | None) -> dict[str, Any] | None:
+    """The stride that the numbers stand for, or null where a foot has a whole one."""
+    if found is None:
+        return None
+    return {"side": found.side, "strike_s": found.strike, "stride_s": found.duration, "by": found.by}
 
 
 def _number_to_json(name: str, found: WalkNumbers) -> dict[str, Any]:

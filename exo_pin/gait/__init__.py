@@ -3,6 +3,7 @@
 from exo_pin.gait.cycles import Cycles, cycles
 from exo_pin.gait.event import EVENT_KINDS, Event
 from exo_pin.gait.gait import Gait
+from exo_pin.gait.half_strides import StrideEstimate, stride_estimate, walk_estimate
 from exo_pin.gait.leg_cycles import LegCycle, leg_cycles
 from exo_pin.gait.manner import manner
 from exo_pin.gait.normative import SPEEDS, normative_gait, normative_sd, speed_named
@@ -25,6 +26,7 @@ __all__ = [
     "Number",
     "Plausibility",
     "Stride",
+    "StrideEstimate",
     "Torques",
     "against_normal",
     "cycles",
@@ -38,6 +40,8 @@ __all__ = [
     "spatiotemporal",
     "speed_named",
     "stance_times",
+    "stride_estimate",
     "strides",
+    "walk_estimate",
     "zeni",
 ]

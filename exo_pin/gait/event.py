@@ -72,10 +72,21 @@ def flat_times(events: Iterable[Event], side: Side) -> Iterator[tuple[float, flo
         events: Sorted by time.
         side: `"left"` or `"right"`.
     """
+    for strike, off in whole_stances(events, side):
+        a, b = (strike + part * (off - strike) for part in FOOT_FLAT)
+        yield a, b
+
+
+def whole_stances(events: Iterable[Event], side: Side) -> Iterator[tuple[float, float]]:
+    """Heel strike and toe-off [s] of each stance of a foot that both are known of.
+
+    Args:
+        events: Sorted by time.
+        side: `"left"` or `"right"`.
+    """
     for strike, off in pairwise(event for event in events if event.side == side):
         if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
-            a, b = (strike.time + part * (off.time - strike.time) for part in FOOT_FLAT)
-            yield a, b
+            yield strike.time, off.time
 
 
 def stance(time: Array, events: Sequence[Event], side: Side, *, periodic: bool) -> Mask:

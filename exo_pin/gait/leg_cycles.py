@@ -13,6 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.cycles import CYCLE_POINTS, cycles
 from exo_pin.gait.gait import Gait
+from exo_pin.gait.half_strides import stride_estimate
 from exo_pin.gait.strides import strides
 
 
@@ -40,8 +41,8 @@ class LegCycle:
 def leg_cycles(gait: Gait) -> tuple[LegCycle, ...]:
     """The cycle of each leg; a leg without a heel strike is left out.
 
-    A leg without a whole cycle is placed in the cycle by one heel strike and the stride time of the other,
-    or twice the step time where that has none either; its note says so.
+    A leg without a whole cycle is placed in the cycle by one heel strike and an estimated stride time
+    (`exo_pin.gait.half_strides`); its note says so.
     """
     found = (_leg(gait, side) for side in SIDES)
     return tuple(leg for leg in found if leg is not None)
@@ -85,27 +86,19 @@ def _leg(gait: Gait, side: Side) -> LegCycle | None:
 
 def _estimated(gait: Gait, side: Side, columns: list[int]) -> LegCycle | None:
     """The whole recording, placed in the cycle by one heel strike and an estimated stride time."""
-    strikes = {s: [e.time for e in gait.events if (e.kind, e.side) == ("heel_strike", s)] for s in SIDES}
-    if not (strikes["left"] and strikes["right"]):
+    estimate = stride_estimate(gait, side)
+    if estimate is None:
         return None
-    other: Side = SIDES[1 - SIDES.index(side)]
-    whole = [span.duration for span in strides(gait, other) if not span.why]
-    stride = float(np.mean(whole)) if whole else 2 * abs(strikes["left"][0] - strikes["right"][0])
-    how = f"the {other} foot's stride" if whole else "a stride of twice the step time"
-    share = (gait.time - strikes[side][0]) / stride
+    share = (gait.time - estimate.strike) / estimate.duration
     percent, q = 100 * (share - np.floor(share)), gait.q[:, columns]
     breaks = np.flatnonzero(np.diff(percent) < 0) + 1
-    note = (
-        f"{side}: no whole cycle of this foot in the recording; placed by its heel strike at "
-        f"{strikes[side][0]:.3f} s and {how}, {stride:.3f} s"
-    )
     return LegCycle(
         side,
         np.insert(percent, breaks, np.nan),
         np.insert(q, breaks, np.nan, axis=0),
         None,
-        _stance(gait, side, stride),
-        note,
+        _stance(gait, side, estimate.duration),
+        f"{side}: {estimate}",
     )
 
 

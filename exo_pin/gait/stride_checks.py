@@ -29,7 +29,7 @@ _FLAT_RANGE = 0.06
 _SHORTEST_STRIDE = 0.10
 """A shorter stride over the ground [m] is stepping on the spot."""
 
-_QUICKEST_STRIDE = 0.4
+QUICKEST_STRIDE = 0.4
 """No stride of a person is quicker [s]: 300 steps/min."""
 
 _EARLY_TOE_OFF = 0.2
@@ -124,8 +124,8 @@ def consistent(candidates: list[CandidateStride]) -> list[CandidateStride]:
 
 def _order_objection(other: Mapping[str, Sequence[float]], a: float, b: float, early: float) -> str:
     """The objection to a stride from a to b [s] in the events of the other foot."""
-    if b - a < _QUICKEST_STRIDE:
-        return f"the feet swing to and fro in less than {_QUICKEST_STRIDE:g} s: noise?"
+    if b - a < QUICKEST_STRIDE:
+        return f"the feet swing to and fro in less than {QUICKEST_STRIDE:g} s: noise?"
     strikes = between(other["heel_strike"], a, b)
     if len(strikes) != 1:
         return "the left and the right foot do not take turns"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,7 +13,19 @@ from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.anatomy.names import Manner, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait, Norm, Number, Stride, against_normal, manner, normal, strides
+from exo_pin.gait import (
+    Gait,
+    Norm,
+    Number,
+    Stride,
+    StrideEstimate,
+    against_normal,
+    manner,
+    normal,
+    strides,
+    walk_estimate,
+)
+from exo_pin.gait.event import whole_stances
 from exo_pin.gait.manner import contacts_are_measured
 from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.gait.published_ranges import CITATIONS
@@ -41,6 +54,7 @@ class WalkNumbers:
         verdicts: `within`, `below` or `above` the usual range, by name.
         measured: Where each length, speed and width was measured, by name.
         missing: Why there are no numbers; empty where there are.
+        estimate: The stride that the numbers stand for where no foot has a whole cycle; None where one has.
         manner: Walk or run.
         unknown: Which numbers are left out, and why; empty where none is.
     """
@@ -51,6 +65,7 @@ class WalkNumbers:
     verdicts: Mapping[str, str] = field(default_factory=dict)
     measured: Mapping[str, str] = field(default_factory=dict)
     missing: str = ""
+    estimate: StrideEstimate | None = None
     manner: Manner = "walk"
     unknown: str = ""
 
@@ -85,6 +100,7 @@ _OF_CONTACT = ("stance", "swing", "stance_symmetry", "double_support", "flight")
 def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> WalkNumbers:
     """The numbers of a walk; lengths by the markers of the feet, else those of this robot's legs.
 
+    Where no foot has a whole cycle they are those of an estimated stride (`exo_pin.gait.half_strides`).
     Without a body the leg length is unknown: then only the speed has a usual range.
 
     Args:
@@ -92,9 +108,11 @@ def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> W
         gait: The walk.
         feet: Heel and toe markers of its trial.
     """
+    estimate = None
     try:
         gait = with_events(robot, gait)
-        numbers = spatiotemporal(robot, gait)
+        estimate = walk_estimate(gait)
+        numbers = _known(gait, _all_numbers(robot, gait))
     except GaitError as error:
         return WalkNumbers(missing=str(error))
     numbers |= _model_clearances(robot, gait)
@@ -109,12 +127,14 @@ def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> W
             strides=tuple(x for side in SIDES for x in strides(gait, side)),
             numbers={name: x for name, x in numbers.items() if not name.endswith("clearance")},
             measured={name: x for name, x in measured.items() if not name.endswith("clearance")},
+            estimate=estimate,
             manner="run",
             unknown="" if contacts_are_measured(gait) else _UNKNOWN,
         )
     return WalkNumbers(
         strides=tuple(x for side in SIDES for x in strides(gait, side)),
         numbers=numbers,
+        estimate=estimate,
         usual=normal(numbers, leg_length=leg_length),
         verdicts=against_normal(numbers, leg_length=leg_length),
         measured=measured,
@@ -133,7 +153,13 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
         GaitError: There are no gait cycles.
     """
     gait = with_events(robot, gait)
-    numbers = _all_numbers(robot, gait)
+    if walk_estimate(gait):
+        raise GaitError("no gait cycles found: no foot strikes the ground twice")
+    return _known(gait, _all_numbers(robot, gait))
+
+
+def _known(gait: Gait, numbers: dict[str, Number]) -> dict[str, Number]:
+    """The numbers without those that need contacts where a run's are not measured."""
     if manner(gait) == "run" and not contacts_are_measured(gait):
         return {name: x for name, x in numbers.items() if not name.endswith(_OF_CONTACT)}
     return numbers
@@ -146,6 +172,9 @@ def _all_numbers(robot: Robot, gait: Gait) -> dict[str, Number]:
 
 def _numbers(gait: Gait, time: Array, heels: Array) -> dict[str, Number]:
     """The numbers of a gait with events, its heels `(n, 2, 3)` at times `(n,)`; raises `GaitError`."""
+    estimate = walk_estimate(gait)
+    if estimate is not None:
+        return _estimated(gait, estimate, time, heels)
     walk = unrolled(gait)
     spans = [span for side in SIDES for span in strides(walk, side)]
     counted = [span for span in spans if not span.why]
@@ -159,6 +188,23 @@ def _numbers(gait: Gait, time: Array, heels: Array) -> dict[str, Number]:
         spans=counted,
         until=gait.duration if gait.periodic else float("inf"),
     )
+
+
+def _estimated(gait: Gait, estimate: StrideEstimate, time: Array, heels: Array) -> dict[str, Number]:
+    """The numbers of an estimated stride; speed and length where it was measured from toe-off to toe-off."""
+    once = {"cadence": (120 / estimate.duration, "steps/min"), "stride_time": (estimate.duration, "s")}
+    strikes = [event for event in gait.events if event.kind == "heel_strike"]
+    for a, b in pairwise(strikes):
+        if a.side != b.side:
+            once[f"{b.side}_step_time"] = (b.time - a.time, "s")
+    for side in SIDES:
+        for start, end in whole_stances(gait.events, side):
+            once[f"{side}_stance"] = (100 * (end - start) / estimate.duration, "%")
+    numbers = {name: Number(x, math.nan, 1, unit) for name, (x, unit) in once.items()}
+    if estimate.spans:
+        pelvis = None if gait.base is None else gait.base[:, :2, 3]
+        numbers |= numbers_of(time, heels, gait.events, pelvis=pelvis, spans=estimate.spans)
+    return numbers
 
 
 def _at_markers(gait: Gait, feet: FootMarkers) -> dict[str, tuple[Number, str]]:

@@ -11,7 +11,8 @@ import pytest
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.cli import main, options
 from exo_pin.formats import load_gait, save_gait
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait, leg_cycles, normative_gait
+from exo_pin.viewer.scenes.compiler import phase_cycles
 
 OPENSIM_RMS = 0.0225  # [m] OpenSim's own on that trial
 EXACT = 1e-9  # [rad] degrees in text and back
@@ -132,6 +133,46 @@ def test_outliers_are_reported_with_joint_time_and_size(capsys, tmp_path, record
         found = {x["curve"]: x for x in json.loads(out)["outliers"]}
         assert set(found) == {"right_knee_flexion", "pelvis_z"}
         assert found["right_knee_flexion"]["off"] == pytest.approx(7, abs=0.1)
+
+
+def test_half_a_stride_has_estimated_numbers_and_nothing_to_cut(capsys, tmp_path):
+    walk = normative_gait().repeated(3)
+    keep = (walk.time >= 0.55 * walk.duration / 3) & (walk.time <= 1.65 * walk.duration / 3)
+    path = tmp_path / "half.csv"
+    events = [e for e in walk.events if walk.time[keep][0] <= e.time <= walk.time[keep][-1]]
+    save_gait(Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="half"), path)
+    for command in ("cycles", "info"):
+        code, out, _ = run(capsys, command, path)
+        assert code == 0
+        assert "estimate: no whole cycle of the left foot" in out
+    facts = json.loads(run(capsys, "cycles", path, "--json")[1])
+    assert facts["estimate"]["stride_s"] == pytest.approx(walk.duration / 3, abs=0.02)  # two samples
+    assert facts["cycles"] == {"left": 0, "right": 0}
+    for option in (("-o", tmp_path / "x.csv"), ("--mean", tmp_path / "y.mot"), ("--side", "right")):
+        code, _, err = run(capsys, "cycles", path, *option)
+        assert code == 2
+        assert "needs a whole cycle" in err
+    assert not list(tmp_path.glob("[xy].*"))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_cycles_of_one_foot_alone_are_cut_and_counted(capsys, tmp_path, side):
+    """A recording of 1.2 strides around two strikes of one foot and one of the other."""
+    walk = normative_gait().repeated(3)
+    start = (0.9 if side == "left" else 0.4) * walk.duration / 3
+    keep = (walk.time >= start) & (walk.time <= start + 1.2 * walk.duration / 3)
+    events = [e for e in walk.events if walk.time[keep][0] <= e.time <= walk.time[keep][-1]]
+    path = tmp_path / "one.csv"
+    save_gait(Gait(walk.time[keep], walk.q[keep], base=walk.base[keep], events=events, source="one"), path)
+    code, out, _ = run(capsys, "cycles", path)
+    assert code == 0
+    assert f"1 cycle of the {side} foot" in out
+    facts = json.loads(run(capsys, "cycles", path, "--json")[1])
+    assert facts["cycles"] == {"left": int(side == "left"), "right": int(side == "right")}
+    assert facts["estimate"] is None
+    gait = load_gait(path)
+    assert phase_cycles(gait).side == side
+    assert any(leg.side == side and "one cycle" in leg.note for leg in leg_cycles(gait))
 
 
 def test_cycles_names_the_publication_of_every_range(capsys, recording):

@@ -100,5 +100,18 @@ def test_a_cycle_that_repeats_has_a_phase_at_every_moment(gait):
     assert phase_cycles(replace(gait, events=())).spans == ((0.0, gait.duration),)
 
 
-def test_a_recording_without_a_whole_cycle_has_no_phase(gait):
-    assert phase_cycles(Gait(gait.time, gait.q, events=gait.events)).spans == ()
+def test_a_recording_without_a_whole_cycle_has_an_estimated_phase_at_every_moment(gait):
+    """One strike of each foot, half a stride apart: the stride is twice as long, and said to be estimated."""
+    found = phase_cycles(
+        Gait(gait.time + 2.0, gait.q, events=[replace(e, time=e.time + 2.0) for e in gait.events])
+    )
+    assert found.side == "left"
+    assert "twice the step time" in found.estimate
+    assert found.spans == ((pytest.approx(0.0), pytest.approx(gait.duration)),)
+
+
+def test_without_events_or_with_strikes_of_one_foot_only_there_is_no_phase(gait):
+    one = [event for event in gait.events if event.side == "right"]
+    for events in ((), one):
+        found = phase_cycles(Gait(gait.time, gait.q, events=events))
+        assert (found.spans, found.estimate) == ((), "")

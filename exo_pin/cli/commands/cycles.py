@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from exo_pin.anatomy import SIDES
 from exo_pin.cli import body_options, options, show, trials, walk_output
+from exo_pin.errors import GaitError
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
@@ -41,7 +42,6 @@ def run(args: argparse.Namespace) -> int:
     """Cut, print, write."""
     from exo_pin import edit
     from exo_pin.formats import save_gait
-    from exo_pin.gait import cycles, side_with_more_strides
     from exo_pin.kinematics import curve_outliers, walk_numbers, with_events
     from exo_pin.robot import load_robot
 
@@ -52,8 +52,8 @@ def run(args: argparse.Namespace) -> int:
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
-    cut = cycles(gait, args.side or side_with_more_strides(gait))
     found = walk_numbers(robot, gait, trials.feet(args, robot, gait))
+    cut = _cut(args, gait, found)
     if args.json:
         facts = {"outliers": walk_output.outliers_to_json(outliers), "plausibility": verdict.facts()}
         show.as_json(walk_output.numbers_to_json(gait, found) | {"source": gait.source} | facts)
@@ -61,13 +61,29 @@ def run(args: argparse.Namespace) -> int:
         _print(args, cut, gait, found)
         walk_output.print_outliers(outliers)
         walk_output.print_plausibility(verdict)
-    if args.output:
+    if args.output and cut:
         _write(args.output, cut, gait.source)
         if not args.json:
             print(f"{args.output}: {len(cut.percent)} points of {walk_output.count(cut)}")
-    if args.mean:
+    if args.mean and cut:
         save_gait(cut.average(f"{gait.source}; mean of {walk_output.count(cut)}"), args.mean)
     return 0
+
+
+def _cut(args: argparse.Namespace, gait: Gait, found: WalkNumbers) -> Cycles | None:
+    """The cycles; None where no foot has a whole one and the numbers are those of an estimated stride.
+
+    Raises:
+        GaitError: There is nothing to cut, and it is asked for: a mean cycle, or cycles of one side.
+    """
+    from exo_pin.gait import cycles, side_with_more_strides
+
+    if found.estimate is None:
+        return cycles(gait, args.side or side_with_more_strides(gait))
+    wanted = {"--output": args.output, "--mean": args.mean, "--side": args.side}
+    for option in (name for name, value in wanted.items() if value):
+        raise GaitError(f"{option} needs a whole cycle: {found.estimate}")
+    return None
 
 
 def _rounded(value: float, unit: str) -> str:
@@ -75,14 +91,16 @@ def _rounded(value: float, unit: str) -> str:
     return show.fixed(value, 3 if unit in ("m", "s", "m/s") else 1)
 
 
-def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers) -> None:
+def _print(args: argparse.Namespace, cut: Cycles | None, gait: Gait, found: WalkNumbers) -> None:
     from exo_pin.kinematics.walk_numbers import ON_THE_MODEL
 
     sources = walk_output.event_sources(gait)
     print(f"source: {gait.source or 'not stated'}; events: {', '.join(sources)}")
-    title = f"{args.gait}: {walk_output.count(cut)}"
+    title = f"{args.gait}: {walk_output.count(cut) if cut else 'an estimated stride'}"
     columns = ["number", "mean", "sd", "n", "usual", "this", "source"]
     show.table(title, columns, [_row(name, found) for name in found.numbers])
+    if found.estimate:
+        print(f"estimate: {found.estimate}")
     if words := walk_output.manner_words(found):
         print(words)
     for k, citation in enumerate(found.citations.values(), 1):
@@ -93,7 +111,7 @@ def _print(args: argparse.Namespace, cut: Cycles, gait: Gait, found: WalkNumbers
     on_model = ON_THE_MODEL in found.measured.values()
     if on_model and args.gait not in SPEEDS and not body_options.sized(args).own_legs:
         print("lengths and width are the default body's: --stature, --hip-width or --body set the person's")
-    if cut.outliers:
+    if cut and cut.outliers:
         print(f"cycles that stand out: {', '.join(str(k + 1) for k in cut.outliers)} of {len(cut)}")
     walk_output.print_left_out(found)
 

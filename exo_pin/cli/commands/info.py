@@ -160,8 +160,11 @@ def _print_numbers(found: _Info) -> None:
         print(f"cycles: {numbers.missing}")
     else:
         counts = ", ".join(f"{n} {side}" for side, n in numbers.cycles.items())
-        speed, cadence = (numbers.numbers[name].mean for name in ("speed", "cadence"))
-        print(f"cycles: {counts}; {speed:.2f} m/s, {cadence:.0f} steps/min (exo-pin cycles)")
+        speed = f"{numbers.numbers['speed'].mean:.2f} m/s, " if "speed" in numbers.numbers else ""
+        cadence = numbers.numbers["cadence"].mean
+        print(f"cycles: {counts}; {speed}{cadence:.0f} steps/min (exo-pin cycles)")
+    if numbers.estimate:
+        print(f"estimate: {numbers.estimate}")
     if words := walk_output.manner_words(numbers):
         print(words)
     walk_output.print_left_out(numbers)

@@ -94,6 +94,8 @@ def numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> Sectio
     manner = [Paragraph(run, "note")] if found.manner == "run" else []
     places = ", ".join(dict.fromkeys(found.measured.values()))
     note = f"Lengths are measured at: {places}. Usual ranges: {cited or 'none'}."
+    if found.estimate:
+        manner.append(Paragraph(f"Estimate: {found.estimate}.", "note"))
     left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in found.left_out)
     gone = [Paragraph(f"Left out: {'; '.join(left)}.", "note")] if found.left_out else []
     return Section(title, (Table(columns, rows), *manner, *gone, Paragraph(note, "note")))

@@ -100,11 +100,12 @@ class Controls {
 
 /** Where in the gait cycle: percent and which cycle, for people. */
 function phaseWords(motion, time) {
-  const { side, spans } = motion.cycles;
+  const { side, spans, estimate } = motion.cycles;
   if (!spans.length) return { percent: "\u2013 %", cycle: "no whole cycle" };
   const phase = motion.phase(time);
   const foot = side ? `${side} ` : "";
   if (!phase) return { percent: "\u2013 %", cycle: `outside the ${foot}cycles` };
   const percent = `${(phase.share * 100).toFixed(1)} %`;
+  if (estimate) return { percent, cycle: `${foot}cycle, estimated` };
   return { percent, cycle: motion.periodic ? `${foot}cycle` : `${foot}cycle ${phase.number} of ${phase.count}` };
 }

@@ -8,7 +8,7 @@ class Motion {
     this.duration = header.duration;
     this.periodic = header.periodic;
     this.stance = header.stance;
-    this.cycles = header.cycles; // {side, spans}
+    this.cycles = header.cycles; // {side, spans, estimate}
     this.begins = header.cycles.spans.map(([from]) => from);
     this.borders = [...new Set(header.cycles.spans.flat())]; // heel strikes [s]
   }

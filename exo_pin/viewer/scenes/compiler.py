@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait, Torques, side_with_more_strides, strides
+from exo_pin.gait import Gait, Torques, side_with_more_strides, strides, walk_estimate
 from exo_pin.gait.heading import heading, turned
 from exo_pin.ground import PlacedWalk
 from exo_pin.retarget import Retargeted
@@ -96,13 +96,19 @@ def phase_cycles(gait: Gait) -> PhaseCycles:
     """The gait cycles in which the page counts phase: those of the foot that has more, left if equal.
 
     A periodic walk is one cycle, seen around its end; without heel strikes it begins at its first sample.
-    Spans of a recording that are no strides (a pause, a turn) are no cycles.
+    Spans of a recording that are no strides (a pause, a turn) are no cycles. A recording without a whole one
+    has those of an estimated stride (`exo_pin.gait.half_strides`).
     """
     side = side_with_more_strides(gait)
     found = _cycles_of(gait, side)
     if gait.periodic and not found:
         return PhaseCycles("", ((0.0, gait.duration),))
-    return PhaseCycles(side if found else "", found)
+    estimate = None if found else walk_estimate(gait)
+    if estimate is None:
+        return PhaseCycles(side if found else "", found)
+    start, end = float(gait.time[0]), float(gait.time[-1])
+    spans = tuple((a - start, b - start) for a, b in estimate.cycles(start, end))
+    return PhaseCycles(estimate.side, spans, str(estimate))
 
 
 def _cycles_of(gait: Gait, side: Side) -> tuple[Interval, ...]:
@@ -136,16 +142,20 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
     """The scene of a staging: the world around it, and the page's header."""
     gait, walk, actors = staging.gait, staging.walk, staging.actors
     drawings, marks = world(gait, walk, staging.mounts)
+    cycles = phase_cycles(gait)
+    phase = [f"The phase is an estimate: {cycles.estimate}."] if cycles.estimate else []
     facts = Facts(
         title=options.title,
         subtitle=_subtitle(gait),
         notes=tuple(
-            dict.fromkeys((*gait.remarks, *options.notes, *_support_notes(walk), *faced, *staging.notes))
+            dict.fromkeys(
+                (*gait.remarks, *options.notes, *phase, *_support_notes(walk), *faced, *staging.notes)
+            )
         ),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
-        cycles=phase_cycles(gait),
+        cycles=cycles,
         stance=walk.stance,
         contact="contact (estimated)" if walk.estimated else "foot contact",
         reference=staging.reference,

@@ -72,11 +72,13 @@ class PhaseCycles:
     """The gait cycles in which phase is counted: side of the heel strikes between them, from and to [s].
 
     `side` is empty where no foot has a cycle, or a periodic walk has no heel strikes. The cycles of a
-    periodic walk reach over its ends.
+    periodic walk and estimated ones reach over its ends. `estimate` is what estimated cycles come from; empty
+    for whole ones.
     """
 
     side: Side | Literal[""]
     spans: tuple[Interval, ...]
+    estimate: str = ""
 
 
 @dataclass(frozen=True)
