@@ -12,13 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from exo_pin import cache, devices, ros_packages
+from exo_pin import cache, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
 from exo_pin.anatomy.names import HipOrder
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.safe import plain_numbers
 
 _MAIN = "exo12.urdf.xacro"
 _SIZES = [
@@ -118,46 +119,6 @@ def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:
     return text
 
 
-def expanded(path: Path) -> str:
-    """The URDF text that a xacro file of one's own stands for; each argument of it has its default.
-
-    `$(find package)` is looked up beside the file, above it, and on `ROS_PACKAGE_PATH` and
-    `AMENT_PREFIX_PATH`.
-
-    Raises:
-        DescriptionError: xacro refuses it, or a package is not found; the message has the reason.
-    """
-    import xacro
-    from xacro import substitution_args
-
-    if not path.is_file():
-        raise DescriptionError(f"{path}: no such file")
-    own, noise = substitution_args._eval_find, io.StringIO()
-    substitution_args._eval_find = lambda name: str(_package(path, name))
-    try:
-        with contextlib.redirect_stderr(noise):
-            return str(xacro.process_file(str(path)).documentElement.toxml())
-    except DescriptionError:
-        raise
-    except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
-        why = " ".join(str(error).split())[:300]
-        raise DescriptionError(f"{path}: xacro cannot expand it: {why}") from error
-    finally:
-        substitution_args._eval_find = own
-
-
-def _package(file: Path, name: str) -> Path:
-    """The folder of a ROS package that a xacro file names."""
-    real = file.resolve()
-    for folder in ros_packages.named(real, name):
-        if folder.is_dir():
-            return folder
-    raise DescriptionError(
-        f"{file}: $(find {name}): there is no package {name!r} (a folder with package.xml) above or beside "
-        "the file, nor on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
-    )
-
-
 def _makers() -> tuple[str | bytes, ...]:
     """Everything that turns arguments into a URDF: xacro, its sources, and this module."""
     files = (Path(__file__), *sorted(sources().glob("*.xacro")))
@@ -224,9 +185,9 @@ def _plausible(name: str, text: str, *, like: str) -> str:
     if name in _STRUCTURE:
         raise DescriptionError(f"{name} follows from the device and the hip order; it is not given alone")
     try:
-        numbers = [float(part) for part in str(text).split()]
+        numbers = [plain_numbers.number(part) for part in str(text).split()]
     except ValueError:
-        raise DescriptionError(f"{name}:={text} is no number") from None
+        raise DescriptionError(f"{name}:={text} is no number like 12.5") from None
     if len(numbers) != len(like.split()) or not all(map(math.isfinite, numbers)):
         raise DescriptionError(f"{name}:={text} must be {len(like.split())} finite number(s)")
     if name in SIZES:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+import re
 import secrets
 from pathlib import Path
 
@@ -12,6 +13,16 @@ from exo_pin.errors import FormatError
 
 LARGEST_FILE = 128 * 2**20
 """No more than this is read [bytes]: an hour of a walk at 100 Hz in full digits; bounds time and memory."""
+
+
+_CONTROL = re.compile("[\0-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+"""What a terminal obeys (escapes, bells, reversed writing), but for blanks and ends of lines."""
+
+
+def control_character(text: str) -> str:
+    """The first control character of a text as its code, e.g. `U+001B`; empty where there is none."""
+    found = _CONTROL.search(text)
+    return f"U+{ord(found[0]):04X}" if found else ""
 
 
 def read_lines(path: str | Path) -> list[str]:
@@ -24,7 +35,7 @@ def read_lines(path: str | Path) -> list[str]:
 
 
 def read_text(path: str | Path) -> str:
-    """A UTF-8 text file with Unix line ends; errors as in `read_lines`."""
+    """A UTF-8 text file with Unix line ends and no control characters; errors as in `read_lines`."""
     path = Path(path)
     return _decoded(path, read_bytes(path)).replace("\r\n", "\n").replace("\r", "\n")
 
@@ -54,10 +65,16 @@ def _decoded(path: Path, data: bytes) -> str:
     if b"\0" in data:
         raise FormatError(path, "not a text file (it holds zero bytes); expected UTF-8 text")
     try:
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig").removesuffix("\x1a")  # by which DOS ends a text
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise FormatError(path, "not UTF-8 text; save the file as UTF-8", line=line) from error
+    found = _CONTROL.search(text)
+    if found is not None:
+        code = control_character(found[0])
+        why = f"holds the control character {code}; remove it, expected plain text"
+        raise FormatError(path, why, line=text.count("\n", 0, found.start()) + 1)
+    return text
 
 
 def write_text(path: str | Path, text: str) -> None:

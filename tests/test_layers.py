@@ -17,6 +17,7 @@ FLOORS = [
     {"files", "scratch", "chunks"},
     {"safe", "cache", "examples"},
     {"ros_packages"},
+    {"xacro_files"},
     {"anatomy"},
     {"devices"},
     {"description", "dh", "gait", "signals"},
@@ -48,7 +49,7 @@ INNER_FLOORS = {  # of rooms with folders, in the same order; "." are the module
 GROUND = {"errors", "arrays", "chunks", "physics", "frozen_fields", "files", "cache", "anatomy", "devices"}
 FLOOR = {room: k for k, rooms in enumerate(FLOORS) for room in rooms}
 ONLY = {  # what comes from elsewhere is imported here and nowhere else
-    "xacro": {"description"},
+    "xacro": {"description", "xacro_files"},
     "meshcat": {"viewer"},
     "argparse": {"cli"},
     "rich": {"cli"},

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from exo_pin import description
+from exo_pin import xacro_files
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.examples import located
@@ -19,7 +18,7 @@ from exo_pin.retarget.both_legs import on_their_branch, read_legs
 from exo_pin.retarget.leg_search import NoPairError, Standing
 from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
-from exo_pin.robot import Robot, load_urdf, urdf_joints
+from exo_pin.robot import Robot, load_urdf, urdf_joints, urdf_tree
 from exo_pin.robot.urdf_joints import Follower
 
 _UPWARD = ("z", "y", "x", "-z", "-y", "-x")
@@ -164,11 +163,11 @@ def _packaged(target: Target) -> Path:
 
 def _prepared(target: Target, path: Path) -> str:
     """The URDF's text with the record's limits."""
-    text = description.expanded(path) if path.suffix.lower() == ".xacro" else read_text(path)
+    text = xacro_files.expanded(path) if path.suffix.lower() == ".xacro" else read_text(path)
     try:
-        root = ET.fromstring(text)
-    except ET.ParseError as error:
-        raise DescriptionError(f"{path} is no URDF: {error}") from None
-    if root.tag != "robot":
-        raise DescriptionError(f"{path} is no URDF: its root element is <{root.tag}>, not <robot>")
-    return urdf_joints.with_limits(text, target.limits) if target.limits else text
+        urdf_tree.parsed(text)  # what is no URDF at all could be taken for the name of a file
+        return urdf_joints.with_limits(text, target.limits) if target.limits else text
+    except UnknownNameError:
+        raise
+    except DescriptionError as error:
+        raise DescriptionError(f"{path}: {error}") from None

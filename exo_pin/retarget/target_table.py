@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import PurePath
@@ -13,6 +12,7 @@ from exo_pin.gait import Gait
 from exo_pin.retarget.retargeted import Retargeted
 from exo_pin.retarget.target_robots import TARGETS, Target
 from exo_pin.retarget.transfer import retarget
+from exo_pin.robot import urdf_tree
 
 _HEAD = (
     "robot",
@@ -46,7 +46,7 @@ def markdown(gait: Gait, body: Body | None = None, targets: Iterable[Target] = T
 
 def visuals(urdf: str) -> str:
     """Number and kinds of a URDF's visuals, e.g. `"28 dae"`."""
-    root = ET.fromstring(urdf)
+    root = urdf_tree.parsed(urdf)
     names = {str(mesh.get("filename")) for mesh in root.iterfind("link/visual/geometry/mesh")}
     kinds = Counter(PurePath(name).suffix.lower().removeprefix(".") for name in names)
     if root.find("link/visual") is None:

@@ -10,11 +10,12 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin import description, devices
+from exo_pin import description, devices, xacro_files
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import Base, HipOrder
 from exo_pin.arrays import Array
-from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
+from exo_pin.files import read_text
 from exo_pin.robot import urdf_joints, urdf_parser
 from exo_pin.robot.model import Robot
 
@@ -80,7 +81,7 @@ def load_urdf(
     text = _text(source)
     if path is None and text is not source:
         path = source
-    text, remarks = urdf_joints.accepted(text)
+    text, remarks = _accepted(text, path)
     model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
     names = tuple(model.names)[2 if base == "floating" else 1 :]
     for name in names:
@@ -110,11 +111,19 @@ def _text(source: str | Path) -> str:
     if isinstance(source, str) and "<" in source:
         return source
     if Path(source).suffix.lower() == ".xacro":
-        return description.expanded(Path(source))
+        return xacro_files.expanded(Path(source))
     try:
-        return Path(source).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DescriptionError(f"{source}: cannot be read: {error}") from None
+        return read_text(source)
+    except FormatError as error:
+        raise DescriptionError(f"{error}") from None
+
+
+def _accepted(text: str, path: str | Path | None) -> urdf_joints.Accepted:
+    """A URDF's text as it is accepted; errors name the file."""
+    try:
+        return urdf_joints.accepted(text)
+    except DescriptionError as error:
+        raise DescriptionError(f"{path or 'URDF'}: {error}") from None
 
 
 def _place(model: Any, placement: Any) -> None:

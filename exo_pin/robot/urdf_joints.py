@@ -1,6 +1,7 @@
 """Joints of a URDF as they are accepted: limits judged, endless joints bounded, floating joints held.
 
-Everything that is wrong in a description's joints is refused here, before Pinocchio builds the model.
+Everything that is wrong in a description is refused here, before Pinocchio builds the model: its XML and tree
+(`urdf_tree`), its numbers (`urdf_numbers`), the limits of its joints.
 """
 
 from __future__ import annotations
@@ -11,6 +12,9 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.robot import urdf_numbers, urdf_tree
+from exo_pin.robot.urdf_tree import shown
+from exo_pin.safe import plain_numbers
 
 _PI = repr(math.pi)
 _HELD = ("floating", "planar")
@@ -46,14 +50,15 @@ def accepted(text: str) -> Accepted:
     """A URDF's text with joints that can be used: half a turn each way without end stops, none that float.
 
     Args:
-        text: The URDF. What is no XML is returned as it is: the parser that reads it has the better message.
+        text: The URDF.
 
     Raises:
-        DescriptionError: The limits of a joint are no numbers, or the lower one is above the upper one.
+        DescriptionError: It is no URDF, no tree of links, too large, or a number in it is not accepted, as is
+            a lower limit above the upper one; the message names the link or joint.
     """
-    root = _root(text)
-    if root is None:
-        return Accepted(text, ())
+    root = urdf_tree.parsed(text)
+    urdf_tree.judge(root)
+    urdf_numbers.judge(root)
     joints = root.findall("joint")
     for joint in joints:
         _judge_limits(joint)
@@ -84,9 +89,7 @@ def with_limits(text: str, limits: Mapping[str, tuple[float, float]]) -> str:
         DescriptionError: It is no XML.
         UnknownNameError: It has no such joint that moves.
     """
-    root = _root(text)
-    if root is None:
-        raise DescriptionError("no XML, so no joints whose limits could be replaced")
+    root = urdf_tree.parsed(text)
     joints = {
         str(joint.get("name")): joint for joint in root.findall("joint") if joint.get("type") != "fixed"
     }
@@ -103,9 +106,9 @@ def followers(text: str) -> dict[str, Follower]:
     Raises:
         DescriptionError: A ratio or offset is no number, or joints follow each other in a circle.
     """
-    root = _root(text)
+    root = urdf_tree.parsed(text)
     found: dict[str, Follower] = {}
-    for joint in [] if root is None else root.findall("joint"):
+    for joint in root.findall("joint"):
         mimic = joint.find("mimic")
         if mimic is not None and joint.get("type") != "fixed":
             name = str(joint.get("name"))
@@ -129,7 +132,7 @@ def _followed(name: str, known: Mapping[str, Follower]) -> Follower:
 
 
 def _judge_limits(joint: ET.Element) -> None:
-    limit, name = joint.find("limit"), str(joint.get("name"))
+    limit, name = joint.find("limit"), shown(joint.get("name"))
     if limit is None or joint.get("type") not in ("revolute", "prismatic"):
         return
     lower, upper = (_number(name, limit, end, 0.0) for end in ("lower", "upper"))
@@ -151,14 +154,11 @@ def _number(name: str, element: ET.Element, attribute: str, default: float) -> f
     if text is None:
         return default
     try:
-        value = float(text)
+        (value,) = plain_numbers.finite(text, 1)
     except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        shown = "".join(mark if mark.isprintable() else " " for mark in text[:40])
         raise DescriptionError(
-            f"joint {name!r}: {attribute} of <{element.tag}> is {shown!r}; a finite number is accepted"
-        )
+            f"joint {name!r}: {attribute} of <{element.tag}> is {shown(text)!r}; a finite number is accepted"
+        ) from None
     return value
 
 
@@ -177,10 +177,3 @@ def _bound(joint: ET.Element, lower: str = f"-{_PI}", upper: str = _PI) -> None:
 
 def _names(joints: Iterable[ET.Element]) -> str:
     return ", ".join(str(joint.get("name")) for joint in joints)
-
-
-def _root(text: str) -> ET.Element | None:
-    try:
-        return ET.fromstring(text)
-    except (ET.ParseError, ValueError):
-        return None

@@ -27,7 +27,7 @@ def built(text: str, *root: Any) -> Any:
             return pin.buildModelFromXML(text, *root)
     except (ValueError, RuntimeError) as error:
         first = re.search(r"Error:\s*(.+)", "".join(lines))
-        why = str(error) if first is None else first[1].strip()
+        why = " ".join((str(error) if first is None else first[1]).split())[:200]
         raise DescriptionError(f"Pinocchio does not accept this URDF: {why}") from None
 
 

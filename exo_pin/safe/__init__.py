@@ -1,1 +1,1 @@
-"""Untrusted XML, YAML and TOML files, read within limits of size and depth; one module each."""
+"""Untrusted XML, YAML, TOML and numbers in texts, read within limits of size and depth; one module each."""

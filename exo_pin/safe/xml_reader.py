@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple, NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from exo_pin.errors import FormatError
-from exo_pin.files import read_bytes
+from exo_pin.files import control_character, read_bytes
 
 _DEEPEST = 100
 """Elements within elements; a model has a dozen."""
@@ -44,7 +44,20 @@ def load_xml(path: Path, limits: XmlLimits = MODEL_LIMITS) -> Element:
         FormatError: It is no XML, too large or too deep, or its document type defines something: entities can
             stand for gigabytes or for other files.
     """
-    data = read_bytes(path)
+    return parse_xml(read_bytes(path), path, limits)
+
+
+def parse_xml(data: bytes | str, path: Path, limits: XmlLimits = MODEL_LIMITS) -> Element:
+    """The root element of XML that is in memory already.
+
+    Args:
+        data: The content of a file, or a text.
+        path: The file, for messages.
+        limits: Of its size and elements.
+
+    Raises:
+        FormatError: As in `load_xml`.
+    """
     if len(data) > limits.mebibytes * 2**20:
         raise FormatError(path, f"larger than {limits.mebibytes} MiB of XML")
     reader = _Reader(path, limits)
@@ -54,7 +67,7 @@ def load_xml(path: Path, limits: XmlLimits = MODEL_LIMITS) -> Element:
     except expat.ExpatError as error:
         raise FormatError(path, f"no XML: {expat.ErrorString(error.code)}", line=error.lineno) from error
     except (AssertionError, LookupError, ValueError) as error:  # no element; an encoding that nobody knows
-        raise FormatError(path, f"no XML: {str(error)[:200]}") from error
+        raise FormatError(path, "no XML: no element, or an unknown encoding; UTF-8 is accepted") from error
 
 
 class _Reader:
@@ -74,6 +87,7 @@ class _Reader:
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         """An element opens."""
         self.depth, self.count = self.depth + 1, self.count + 1
+        self.refuse_control((tag, *attributes, *attributes.values()))
         if self.depth > _DEEPEST or self.count > self.limits.elements:
             self.refuse(f"more than {_DEEPEST} levels or {self.limits.elements} elements")
         if self.skipping or tag in self.limits.skipped:
@@ -83,6 +97,7 @@ class _Reader:
 
     def data(self, text: str) -> None:
         """Text of an element."""
+        self.refuse_control((text,))
         if not self.skipping:
             self.tree.data(text)
 
@@ -104,6 +119,12 @@ class _Reader:
     def entity(self, name: str, is_parameter: bool) -> None:
         """An entity that another file would define."""
         self.refuse(f"uses the entity {name[:40]!r} of its document type, which is not read")
+
+    def refuse_control(self, texts: Iterable[str]) -> None:
+        """Characters that a terminal would obey: those that XML 1.0 allows."""
+        found = control_character("".join(texts))
+        if found:
+            self.refuse(f"holds the control character {found}; remove it")
 
     def refuse(self, why: str) -> NoReturn:
         """Stop reading."""

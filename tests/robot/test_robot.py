@@ -121,7 +121,7 @@ def test_text_that_is_no_urdf_is_refused(text):
 
 
 def test_a_missing_urdf_is_refused(tmp_path):
-    with pytest.raises(DescriptionError, match="cannot be read"):
+    with pytest.raises(DescriptionError, match="no such file"):
         load_urdf(tmp_path / "none.urdf")
 
 

@@ -59,7 +59,7 @@ def test_a_name_that_is_no_package_leads_nowhere(tmp_path):
     ("content", "said"),
     [
         (None, "no such file"),
-        ("<robot", "xacro cannot expand it"),
+        ("<robot", "no XML: unclosed token"),
         (WHOLE, "no package 'parts'"),
         (f'<robot name="r" {XMLNS}><link name="${{1/0}}"/></robot>', "xacro cannot expand it"),
         (f'<robot name="r" {XMLNS}><xacro:nothing/></robot>', "xacro cannot expand it"),

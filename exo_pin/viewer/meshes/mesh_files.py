@@ -5,7 +5,8 @@ Nothing that a mesh file names (textures, material libraries) is opened.
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
+import io
+from array import array
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,9 +18,22 @@ import numpy as np
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes
+from exo_pin.viewer.meshes.damaged import DamagedMeshError
 from exo_pin.viewer.meshes.solids import Color
 
 _BINARY = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_LARGEST = 32
+"""Of a file [MiB]."""
+
+MOST_TRIANGLES = 1_200_000
+"""Of a file; those of robots have some ten thousand."""
+
+_FURTHEST = 1e6
+"""From the origin, along each axis, in the file's unit (often millimetres)."""
+
+_LONGEST_LINE = 2**20
+"""Of an OBJ file [characters]."""
+
 _HEAD = 84  # bytes of a binary STL before its triangles, their number at the end
 
 
@@ -50,19 +64,35 @@ def read(path: Path) -> list[MeshPart]:
     if kind not in _READERS:
         raise FormatError(path, f"{kind or 'no ending'} is no mesh; {', '.join(_READERS)} are accepted")
     data = read_bytes(path)
+    if len(data) > _LARGEST * 2**20:
+        raise FormatError(path, f"larger than {_LARGEST} MiB; a robot's mesh is smaller")
     try:
         parts = _READERS[kind](data)
-    except (ValueError, LookupError, OverflowError, ET.ParseError) as error:
+    except DamagedMeshError as error:
         raise FormatError(path, f"is damaged: {error}") from None
-    for part in parts:
-        if not np.isfinite(part.vertices).all() or (len(part.faces) and not _within(part)):
-            raise FormatError(path, "is damaged: a triangle has no such corner")
+    except (ValueError, LookupError, OverflowError):
+        raise FormatError(path, "is damaged: numbers are missing, too many, or no numbers") from None
+    _judge(path, parts)
     return [part for part in parts if len(part.faces)]
+
+
+def _judge(path: Path, parts: list[MeshPart]) -> None:
+    """Refuse places that are none, corners that do not exist, and too many triangles."""
+    if sum(len(part.faces) for part in parts) > MOST_TRIANGLES:
+        raise FormatError(path, f"more than {MOST_TRIANGLES} triangles")
+    for part in parts:
+        if not (np.abs(part.vertices) <= _FURTHEST).all():
+            raise FormatError(path, f"is damaged: a corner is no place within {_FURTHEST:g}")
+        if len(part.faces) and not _within(part):
+            raise FormatError(path, "is damaged: a triangle has no such corner")
 
 
 def stl(data: bytes) -> list[MeshPart]:
     """An STL file, binary or text."""
-    return [_welded(stl_corners(data))]
+    corners = stl_corners(data)
+    if not (np.abs(corners) <= _FURTHEST).all():
+        raise DamagedMeshError(f"a corner is no place within {_FURTHEST:g}")
+    return [_welded(corners)]
 
 
 def stl_corners(data: bytes) -> Array:
@@ -77,7 +107,7 @@ def stl_corners(data: bytes) -> Array:
     else:
         words = data.decode("ascii", "replace").split()
         if words[:1] != ["solid"]:
-            raise ValueError("neither a binary nor a text STL")
+            raise DamagedMeshError("neither a binary nor a text STL")
         starts = np.flatnonzero(np.array(words, dtype=object) == "vertex")
         corners = np.array([words[k + 1 : k + 4] for k in starts], dtype=float).reshape(-1, 3)
     return np.asarray(corners[: len(corners) // 3 * 3], dtype=float)
@@ -85,29 +115,42 @@ def stl_corners(data: bytes) -> Array:
 
 def obj(data: bytes) -> list[MeshPart]:
     """A Wavefront OBJ file; its polygons become fans, its materials are left away."""
-    vertices: list[list[float]] = []
-    faces: list[tuple[int, int, int]] = []
-    for line in data.decode("utf-8", "replace").splitlines():
+    places, faces = array("d"), array("q")
+    text = io.TextIOWrapper(io.BytesIO(data), "utf-8", "replace")
+    for number, line in enumerate(iter(lambda: text.readline(_LONGEST_LINE), ""), 1):
+        if len(line) == _LONGEST_LINE:
+            raise DamagedMeshError(f"line {number} is longer than {_LONGEST_LINE} characters")
         words = line.split()
-        if words[:1] == ["v"]:
-            vertices.append([float(x) for x in words[1:4]])
-        elif words[:1] == ["f"]:
-            corners = [int(word.split("/")[0]) for word in words[1:]]
-            ring = [k - 1 if k > 0 else len(vertices) + k for k in corners]
-            faces += [(ring[0], b, c) for b, c in pairwise(ring[1:])]
-    return [
-        MeshPart(
-            np.array(vertices, dtype=float).reshape(-1, 3), np.array(faces, dtype=np.int64).reshape(-1, 3)
-        )
-    ]
+        try:
+            if words[:1] == ["v"]:
+                places.extend(_place(words))
+            elif words[:1] == ["f"]:
+                faces.extend(_fan(words, len(places) // 3))
+        except (ValueError, OverflowError):
+            raise DamagedMeshError(f"line {number} is no {words[0]!r} line of numbers") from None
+        if max(len(faces), len(places)) > 3 * MOST_TRIANGLES:
+            raise DamagedMeshError(f"more than {MOST_TRIANGLES} triangles or corners")
+    return [MeshPart(np.array(places).reshape(-1, 3), np.array(faces, dtype=np.int64).reshape(-1, 3))]
+
+
+def _place(words: list[str]) -> tuple[float, float, float]:
+    x, y, z = map(float, words[1:4])
+    return x, y, z
+
+
+def _fan(words: list[str], known: int) -> list[int]:
+    """The triangles of a polygon, one after the other; corners are counted from 1, or from the last."""
+    corners = [int(word.partition("/")[0]) for word in words[1:]]
+    ring = [k - 1 if k > 0 else known + k for k in corners]
+    return [corner for b, c in pairwise(ring[1:]) for corner in (ring[0], b, c)]
 
 
 def dae(data: bytes) -> list[MeshPart]:
     """A COLLADA file."""
     from exo_pin.viewer.meshes.collada import parts
 
-    found, y_up = parts(data)
-    return [_used(vertices, faces, color, y_up) for vertices, faces, color in found]
+    found, y_up = parts(data, MOST_TRIANGLES)
+    return [MeshPart(vertices, faces, color, y_up) for vertices, faces, color in found]
 
 
 _READERS: Mapping[str, Callable[[bytes], list[MeshPart]]] = MappingProxyType(
@@ -126,12 +169,6 @@ def _welded(corners: Array) -> MeshPart:
     keys = np.ascontiguousarray(corners.astype("<f4")).view([("", "<f4")] * 3).ravel()
     _, first, index = np.unique(keys, return_index=True, return_inverse=True)
     return MeshPart(corners[first], index.reshape(-1, 3).astype(np.int64))
-
-
-def _used(vertices: Array, faces: Index, color: Color | None, y_up: bool) -> MeshPart:
-    """Without the vertices that no face uses."""
-    kept, index = np.unique(faces, return_inverse=True)
-    return MeshPart(vertices[kept], index.reshape(-1, 3).astype(np.int64), color, y_up)
 
 
 def _within(part: MeshPart) -> bool:

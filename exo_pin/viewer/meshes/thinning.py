@@ -12,6 +12,9 @@ from exo_pin.viewer.meshes.solids import Solid
 _CREASE = np.cos(np.radians(38.0))
 """Faces that meet at a sharper angle show an edge (a choice)."""
 
+_MOST_PAIRS = 20_000_000
+"""Corners that are compared with those of the same vertex: bounds memory where thousands share one."""
+
 _WEAK_PLANES = 1e-3
 """Directions in which a cell's planes say less than this share of the most are left at the mean."""
 
@@ -93,8 +96,10 @@ def shaded(vertices: Array, faces: Index) -> Solid:
     corner = np.argsort(faces.ravel(), kind="stable")  # corners of one vertex stand together
     count = np.bincount(faces.ravel(), minlength=len(vertices))
     group = np.repeat(count, count)  # how many share the corner's vertex
-    one = np.repeat(np.arange(len(corner)), group)
     start = np.repeat(np.cumsum(count) - count, count)
+    crowded = group > max(_MOST_PAIRS // max(len(corner), 1), 1)  # those keep the normals of their faces
+    group, start = np.where(crowded, 1, group), np.where(crowded, np.arange(len(corner)), start)
+    one = np.repeat(np.arange(len(corner)), group)
     other = np.repeat(start - (np.cumsum(group) - group), group) + np.arange(len(one))
     mine, its = corner[one] // 3, corner[other] // 3
     near = np.einsum("pk,pk->p", unit[mine], unit[its]) > _CREASE

@@ -8,6 +8,7 @@ beside that one, those of ROS's search path, and example-robot-data.
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -126,9 +127,10 @@ class Meshes:
                 (root, self.urdf.parent / (rest if mark else name)) for root in ros_packages.own(self.urdf)
             ]
         for root, path in tried:
-            real = Path(os.path.realpath(path))
-            if real.is_relative_to(os.path.realpath(root)) and real.is_file():
-                return real
+            with suppress(OSError):  # a name that is too long
+                real = Path(os.path.realpath(path))
+                if real.is_relative_to(os.path.realpath(root)) and real.is_file():
+                    return real
         return None
 
 

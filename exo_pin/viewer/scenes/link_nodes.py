@@ -16,6 +16,7 @@ from typing import Literal, Protocol
 import numpy as np
 
 from exo_pin.errors import DescriptionError
+from exo_pin.robot import urdf_tree
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place
 from exo_pin.viewer.meshes import solids, urdf_elements
 from exo_pin.viewer.meshes.solids import Color, Solid
@@ -106,9 +107,9 @@ def linkage(
         DescriptionError: The text is not a URDF with one root link, or a number in it cannot be read.
     """
     try:
-        return _Nesting(ET.fromstring(urdf), paint, meshes).below(root)
-    except (ET.ParseError, ValueError, RecursionError) as error:
-        raise DescriptionError(f"the URDF cannot be drawn: {error}") from error
+        return _Nesting(urdf_tree.parsed(urdf), paint, meshes).below(root)
+    except (ValueError, RecursionError) as error:
+        raise DescriptionError("the URDF cannot be drawn: a number in it is none") from error
 
 
 class _Nesting:
