@@ -70,7 +70,7 @@ def arguments(
         raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
     found = devices.find(device)
     values = _structure(found, hip_order) | {name: _text(getattr(body, name)) for name in _SIZES}
-    for link, part in link_inertias(body, toes=found.toes).items():
+    for link, part in link_inertias(body, toes=found.toes, stand=found.stand).items():
         values |= _inertial(link, part)
     for joint in (*JOINTS, *found.added):
         values |= _limits(body, found, joint)

@@ -7,14 +7,14 @@ parallel-axis theorem.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.body import Body, Leg
-from exo_pin.anatomy.names import SIDES, Sex
+from exo_pin.anatomy.names import CORNERS, FEET, SIDES, Sex
 from exo_pin.arrays import Array
 
 
@@ -32,6 +32,13 @@ class Inertial(NamedTuple):
     inertia: Array
 
 
+FRAME = Inertial(0.001, np.zeros(3), 1e-7 * np.eye(3))
+"""A point of interest on the sole, 1 g: readers of a URDF give a link without mass 1 kg, or refuse it."""
+
+_CARRIAGE = 0.05
+"""Share of each carriage of a stand in `Body.pelvis_hardware`, a design choice: 0.3 kg of 6 kg."""
+
+
 def total(parts: Iterable[Inertial]) -> Inertial:
     """The parts as one body (parallel-axis theorem)."""
     parts = list(parts)
@@ -44,15 +51,21 @@ def total(parts: Iterable[Inertial]) -> Inertial:
     return Inertial(mass, centre, inertia)
 
 
-def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Inertial]:
-    """Mass, centre and inertia of each link by link name: pelvis, then six links a leg.
+def link_inertias(body: Body, *, toes: bool = False, stand: Sequence[str] = ()) -> dict[str, Inertial]:
+    """Mass, centre and inertia of each link by link name: carriages, pelvis, six links a leg, frames.
+
+    The masses sum up to `Body.total_mass`: frames take theirs from foot plates, the stand from the pelvis.
 
     Args:
         body: Sizes and masses.
         toes: Whether the foot plate is two links, `sole_plate` and in front of the ball `toe_plate`; the
             wearer's foot then stays with the sole plate.
+        stand: Names of the links that carry the pelvis, all in its place at q = 0: the stand itself, which is
+            fixed and weighs as little as a frame, then its carriages.
     """
-    links = {"pelvis": total([*_upper_body(body), _waist(body)])}
+    masses = {name: _CARRIAGE * body.pelvis_hardware if k else FRAME.mass for k, name in enumerate(stand)}
+    links = {name: _bracket(mass) for name, mass in masses.items()}
+    links["pelvis"] = total([*_upper_body(body), _waist(body, body.pelvis_hardware - sum(masses.values()))])
     for side, s in zip(SIDES, (1.0, -1.0), strict=True):
         leg = body.leg(side)
         for name, parts in _leg(body, leg, s).items():
@@ -61,7 +74,12 @@ def link_inertias(body: Body, *, toes: bool = False) -> dict[str, Inertial]:
             back, front = _plates(body, leg)
             worn = _wearer_leg(body, leg)["sole_plate"] if body.wearer else []
             links |= {f"{side}_sole_plate": total([back, *worn]), f"{side}_toe_plate": front}
-    return links
+    return links | dict.fromkeys((*FEET, *CORNERS), FRAME)
+
+
+def _plate_mass(body: Body) -> float:
+    """A foot plate without its five frames: the sole's and its corners'."""
+    return body.foot_hardware - FRAME.mass * len((*FEET, *CORNERS)) / len(SIDES)
 
 
 def _plates(body: Body, leg: Leg) -> tuple[Inertial, Inertial]:
@@ -69,11 +87,11 @@ def _plates(body: Body, leg: Leg) -> tuple[Inertial, Inertial]:
     share, toe = (leg.heel + leg.ball) / leg.foot_length, leg.foot_length - leg.heel - leg.ball
     height = 0.006 - leg.ankle_height
     back = _box(
-        share * body.foot_hardware,
+        share * _plate_mass(body),
         ((leg.ball - leg.heel) / 2, 0.0, height),
         (leg.heel + leg.ball, leg.foot_width, 0.012),
     )
-    front = _box((1 - share) * body.foot_hardware, (toe / 2, 0.0, 0.006), (toe, leg.foot_width, 0.012))
+    front = _box((1 - share) * _plate_mass(body), (toe / 2, 0.0, 0.006), (toe, leg.foot_width, 0.012))
     return back, front
 
 
@@ -88,7 +106,7 @@ def _leg(body: Body, leg: Leg, s: float) -> dict[str, list[Inertial]]:
         "shank": _box(body.shank_hardware, (0.0, y, -leg.shank / 2), (0.05, 0.03, leg.shank)),
         "ankle": _box(body.ankle_hardware, (0.0, y, 0.0), (0.06, 0.05, 0.06)),
         "sole_plate": _box(
-            body.foot_hardware,
+            _plate_mass(body),
             (leg.foot_length / 2 - leg.heel, 0.0, 0.006 - leg.ankle_height),
             (leg.foot_length, leg.foot_width, 0.012),
         ),
@@ -129,9 +147,14 @@ def _upper_body(body: Body) -> list[Inertial]:
     return [_segment(n, body.sex, scale * table[n].mass, size[n], (0.0, y, z)) for n, y, z in places]
 
 
-def _waist(body: Body) -> Inertial:
+def _waist(body: Body, mass: float) -> Inertial:
     """Waist ring and bracket as a box behind and around the body."""
-    return _box(body.pelvis_hardware, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
+    return _box(mass, (-0.08, 0.0, 0.10), (0.30, body.waist_width, 0.12))
+
+
+def _bracket(mass: float) -> Inertial:
+    """A stand's link as a box where the waist's centre is, so that the whole keeps its centre of mass."""
+    return _box(mass, (-0.08, 0.0, 0.10), (0.08, 0.20, 0.06))
 
 
 def _segment(name: str, sex: Sex, mass: float, length: float, centre: tuple[float, float, float]) -> Inertial:

@@ -121,6 +121,11 @@ class Device:
         return () if isinstance(self.pelvis, str) else self.pelvis
 
     @property
+    def stand(self) -> tuple[str, ...]:
+        """Links that carry the pelvis: the stand, and a carriage for each slide but the last."""
+        return ("stand", *(f"{slide}_carriage" for slide in self.slides[:-1])) if self.slides else ()
+
+    @property
     def added(self) -> tuple[str, ...]:
         """Joints that the 12-joint exoskeleton does not have."""
         return (*self.slides, *(TOES if self.toes else ()))
