@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 
+from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, Plausibility, implausibilities
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
+from exo_pin.kinematics.sole_contact import with_events
 from exo_pin.kinematics.stance_slide import slide_doubts
 from exo_pin.robot import Robot
 
@@ -22,6 +25,8 @@ def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plaus
         more: Reasons found elsewhere: how markers are met, how force plates were read.
     """
     found = Plausibility(implausibilities(gait))
+    with suppress(GaitError):  # a motion without cycles has no landings that its curves bend at
+        gait = with_events(robot, gait)
     return found.with_reasons((*_outliers(curve_outliers(gait)), *slide_doubts(robot, gait), *more))
 
 

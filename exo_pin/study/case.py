@@ -17,7 +17,8 @@ from exo_pin.devices import Device
 from exo_pin.errors import ExoPinError
 from exo_pin.files import read_bytes
 from exo_pin.formats import load_gait, open_trial
-from exo_pin.gait import Gait, implausibilities, normative_gait, speed_named
+from exo_pin.gait import Gait, normative_gait, speed_named
+from exo_pin.kinematics import plausibility
 from exo_pin.study.fingerprint import code_digest, fingerprint, plain
 from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
 
@@ -91,11 +92,11 @@ def solve(case: Case) -> Outcome:
     if case.version != version.__version__:
         return Outcome(case, failure=_line(case, f"the worker has exo_pin {version.__version__}"))
     try:
-        gait, body = _walk(case)
+        gait, body, doubts = _walk(case)
         rows = [
             row
             for conditions in dict.fromkeys(c for c, _ in case.parts)
-            for row in _rows(case, gait, body, conditions)
+            for row in _rows(case, gait, body, doubts, conditions)
         ]
     except ExoPinError as error:
         return Outcome(case, failure=_line(case, str(error)))
@@ -104,26 +105,28 @@ def solve(case: Case) -> Outcome:
     return Outcome(case, tuple(rows))
 
 
-def _walk(case: Case) -> tuple[Gait, Body]:
-    """The walk and the body that walks."""
+def _walk(case: Case) -> tuple[Gait, Body, tuple[str, ...]]:
+    """The walk, the body that walks, and how markers speak against it."""
     if not case.path:
         body = case.body or Body.from_stature()
-        return normative_gait(speed_named(case.gait), leg_length=body.leg_length), body
+        return normative_gait(speed_named(case.gait), leg_length=body.leg_length), body, ()
     from exo_pin.markers import load_walk
     from exo_pin.markers.trial_person import trial_body
 
     file = open_trial(case.path)
     trial = load_walk(file) if file.needs_inverse_kinematics else None
     gait = trial.gait if trial else load_gait(file, preset=case.preset)
-    return gait, case.body or trial_body(file, trial).body
+    return gait, case.body or trial_body(file, trial).body, trial.doubts if trial else ()
 
 
-def _rows(case: Case, gait: Gait, body: Body, conditions: Conditions) -> Iterator[Row]:
+def _rows(
+    case: Case, gait: Gait, body: Body, doubts: tuple[str, ...], conditions: Conditions
+) -> Iterator[Row]:
     """The rows of all devices under one set of conditions."""
     parts = zip(case.parts, case.fingerprints, strict=True)
     devices = {device: mark for (its, device), mark in parts if its == conditions}
     compared = compare(gait, devices, body, conditions=conditions)
-    warnings = "; ".join(implausibilities(gait))
+    warnings = "; ".join(plausibility(compared.walk.robot, gait, more=doubts).reasons)
     for pair in zip(compared.best, compared.projected, strict=True):
         for motion, loss in zip(MOTIONS, pair, strict=True):
             yield _row(case, loss, motion, conditions, warnings, devices[loss.device])

@@ -60,7 +60,7 @@ class Row:
         hip_change_deg: Largest difference of hip flexion from the required angle.
         knee_change_deg: The same of knee flexion.
         com_rms_mm: Distance of the centre of mass from the recorded walk's, root mean square.
-        doubts: Warnings about how the recording was read; empty for a usual walk.
+        doubts: The reasons of `exo_pin.gait.Plausibility` against the walk; empty for a plausible one.
         version: Of exo_pin.
         inputs: Fingerprint of exo_pin's code, walk, body, device and conditions: equal inputs, equal rows.
     """

@@ -21,7 +21,7 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import SPEEDS, Event, Gait, manner, normative_gait
 from exo_pin.gait.running_method import RUNNING_SOURCES
 from exo_pin.gait.trial import ForcePlate
-from exo_pin.kinematics import events, walk_numbers, with_plates
+from exo_pin.kinematics import events, plausibility, walk_numbers, with_plates
 from exo_pin.robot import load_robot
 
 FRAMES = 0.033  # [s] two frames of 60 Hz: what kinematics may differ from the truth
@@ -240,3 +240,19 @@ def test_hops_on_both_feet_are_no_run(supple):
     both = Gait(run.time, np.tile(run.q[:, :half], 2), base=run.base)
     with pytest.raises(GaitError, match="no gait cycles found"):
         events(supple, both)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_run_is_plausible_though_its_feet_land_hard(supple, kind):
+    assert plausibility(supple, KINDS[kind].gait(supple)).reasons == ()
+
+
+@pytest.mark.parametrize("at", [0.2, 0.5, 0.8])
+def test_a_sample_that_jumps_in_a_run_is_an_outlier(supple, at):
+    """15 degrees at one sample of the third stride, in stance, flight and swing: no other step has it."""
+    run = KINDS["run"]
+    gait = run.gait(supple)
+    q, k = gait.q.copy(), round((2 + at) * run.stride * run.rate)
+    q[k, JOINTS.index("left_knee_flexion")] += np.radians(15)
+    (reason,) = plausibility(supple, Gait(gait.time, q, base=gait.base)).reasons
+    assert f"left_knee_flexion at {gait.time[k]:.3f} s" in reason

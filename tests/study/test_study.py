@@ -5,6 +5,7 @@ import json
 import math
 
 import joblib
+import numpy as np
 import pytest
 
 from exo_pin import study
@@ -13,8 +14,9 @@ from exo_pin.cli import main
 from exo_pin.compare import Conditions, compare
 from exo_pin.devices import Device, both
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
-from exo_pin.formats import save_gait
+from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import normative_gait
+from exo_pin.kinematics import plausibility
 from exo_pin.study.parallel import _in_turns
 
 DEVICES = ("exo12", "hk4")
@@ -206,6 +208,23 @@ def test_every_recording_of_a_folder_is_studied_and_bad_ones_are_reported(walks)
     assert set(result.failures) == {"empty.csv", "letters.mot"}
     assert all(name in why and "\n" not in why for name, why in result.failures.items())
     assert {row.stature_m for row in result.rows} == {Body.from_stature().stature}
+
+
+def test_the_rows_hold_the_reasons_against_a_walk_that_info_gives(tmp_path, robot):
+    """One sample off its curve, and a pelvis that drags the feet along: neither was in the table before."""
+    walk = normative_gait().repeated(3)
+    q, base = walk.q.copy(), np.array(walk.base)
+    q[150, 3] += np.radians(15)
+    base[:, 0, 3] += 2.0 * walk.time
+    folder = tmp_path / "doubtful"
+    folder.mkdir()
+    save_gait(dataclasses.replace(walk, q=q, base=base), folder / "walk.npz")
+    rows = study.run(study.recordings(folder, devices=("hk4",), conditions=RECORDED)).rows
+    (doubts,) = {row.doubts for row in rows}
+    reasons = plausibility(robot, load_gait(folder / "walk.npz")).reasons
+    assert doubts == "; ".join(reasons)
+    assert "stand" in doubts
+    assert "slides" in doubts
 
 
 def test_an_unexpected_error_costs_its_recording_only(walks, monkeypatch):

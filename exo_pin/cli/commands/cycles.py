@@ -47,7 +47,8 @@ def run(args: argparse.Namespace) -> int:
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
-    outliers = curve_outliers(gait)  # before the filter spreads them
+    recorded = options.with_events(robot, gait)[0]
+    outliers = curve_outliers(recorded)  # before the filter spreads them
     verdict = options.plausibility(args, robot, gait)
     if args.cutoff is not None:
         gait = edit.filtered(gait, cutoff=args.cutoff)
