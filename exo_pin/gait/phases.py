@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
+from typing import Literal, NamedTuple
 
 import numpy as np
 
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
-from exo_pin.gait.event import SAME_TIME
+from exo_pin.gait.event import SAME_TIME, Event, whole_stances
 from exo_pin.gait.gait import Gait
+from exo_pin.gait.half_strides import stride_estimate
 
 PHASES = {
     "loading response": (0.0, 12.0),
@@ -20,33 +24,94 @@ PHASES = {
     "mid swing": (75.0, 87.0),
     "terminal swing": (87.0, 100.0),
 }
-"""Begin and end in percent of the foot's cycle (Perry 1992, Gait Analysis); toe-off is at 62."""
+"""Begin and end in percent of the foot's cycle (Perry 1992, Gait Analysis); its toe-off is at 62."""
 
-_SPANS = {("heel_strike", "toe_off"): (0.0, 62.0), ("toe_off", "heel_strike"): (62.0, 100.0)}
+PERRY_TOE_OFF = 62.0
+"""Toe-off in Perry's division [%]; the walk's own where its events tell."""
+
+
+class ToeOff(NamedTuple):
+    """The usual toe-off of a foot.
+
+    Attributes:
+        percent: Of the stride.
+        by: What tells it: the walk's strides, an estimated stride, or nothing (assumed).
+    """
+
+    percent: float
+    by: Literal["events", "estimated stride", "assumed"]
+
+
+def toe_off(gait: Gait, side: Side) -> ToeOff:
+    """Mean toe-off of a foot's whole strides; else its stance in an estimated stride, else Perry's 62 %."""
+    events = _events(gait, side)
+    triples = zip(events, events[1:], events[2:], strict=False)
+    shares = [
+        (b.time - a.time) / (c.time - a.time) for a, b, c in triples if (a.kind, b.kind, c.kind) == _WHOLE
+    ]
+    if shares:
+        return ToeOff(100 * float(np.mean(shares)), "events")
+    estimate = stride_estimate(gait, side)
+    stances = [end - start for start, end in whole_stances(gait.events, side)]
+    if estimate and stances and np.mean(stances) < estimate.duration:
+        return ToeOff(100 * float(np.mean(stances)) / estimate.duration, "estimated stride")
+    return ToeOff(PERRY_TOE_OFF, "assumed")
+
+
+def division(gait: Gait) -> str:
+    """Where toe-off divides the strides of a walk, in words for people; which foot's is assumed."""
+    found = {side: toe_off(gait, side) for side in SIDES}
+    return "toe-off at " + ", ".join(f"{x.percent:.0f} % ({side}, {x.by})" for side, x in found.items())
 
 
 def percent(gait: Gait, side: Side) -> Array:
-    """Percent (n,) of the foot's cycle: stance is stretched to 0 .. 62, swing to 62 .. 100.
+    """Percent `(n,)` of the foot's stride; NaN where no whole stance, swing or stride surrounds a sample.
 
-    So a recording shorter than a stride still has phases. NaN where no whole stance or swing surrounds a
-    sample.
+    A stance or swing whose stride is not whole in the recording is placed by the usual toe-off (`toe_off`).
     """
-    events = [(e.time, e.kind) for e in gait.events if e.side == side]
-    if gait.periodic:
-        events = [(t + k * gait.duration, kind) for k in (-1, 0, 1) for t, kind in events]
-    share = np.full(len(gait), np.nan)
-    for (begin, kind), (end, following) in pairwise(sorted(events)):
-        if (kind, following) not in _SPANS:
-            continue
-        low, high = _SPANS[kind, following]
-        inside = (gait.time >= begin - SAME_TIME) & (gait.time < end - SAME_TIME)
-        done = (gait.time[inside] - begin) / (end - begin)
-        share[inside] = low + (high - low) * np.clip(done, 0.0, 1.0)
-    return share
+    return _placed(gait, side)[0]
 
 
 def masks(gait: Gait, side: Side) -> dict[str, Mask]:
-    """Which samples (n,) belong to each phase of a foot; none where events are missing."""
-    share = percent(gait, side)
-    with np.errstate(invalid="ignore"):  # NaN belongs to no phase
-        return {name: (share >= low) & (share < high) for name, (low, high) in PHASES.items()}
+    """Which samples `(n,)` belong to each phase of a foot; none where events are missing.
+
+    Perry's phases keep their parts of stance and swing; each stride's own toe-off divides the two.
+    """
+    share, off = _placed(gait, side)
+    with np.errstate(invalid="ignore", divide="ignore"):  # NaN belongs to no phase
+        swing = PERRY_TOE_OFF + (100 - PERRY_TOE_OFF) * (share - off) / (100 - off)
+        stage = np.where(share < off, PERRY_TOE_OFF * share / off, swing)
+        return {name: (stage >= low) & (stage < high) for name, (low, high) in PHASES.items()}
+
+
+_WHOLE = ("heel_strike", "toe_off", "heel_strike")
+
+
+def _events(gait: Gait, side: Side) -> list[Event]:
+    """The events of a foot, sorted; those of a walk that repeats for three rounds."""
+    mine = [event for event in gait.events if event.side == side]
+    if gait.periodic:
+        rounds = (k * gait.duration for k in (-1, 0, 1))
+        mine = [replace(event, time=event.time + shift) for shift in rounds for event in mine]
+    return sorted(mine, key=lambda event: event.time)
+
+
+def _placed(gait: Gait, side: Side) -> tuple[Array, Array]:
+    """Percent of the stride, and toe-off of that stride in percent, both `(n,)`."""
+    events, usual = _events(gait, side), toe_off(gait, side).percent
+    share, offs = (np.full(len(gait), np.nan) for _ in range(2))
+    for k, (a, b) in enumerate(pairwise(events)):
+        if (a.kind, b.kind) == ("toe_off", "toe_off"):
+            continue
+        first = k if a.kind == "heel_strike" else k - 1
+        around = events[first : first + 3] if first >= 0 else []
+        off = usual
+        if tuple(event.kind for event in around) == _WHOLE:
+            off = 100 * (around[1].time - around[0].time) / (around[2].time - around[0].time)
+        low = 0.0 if a.kind == "heel_strike" else off
+        high = off if b.kind == "toe_off" else 100.0
+        inside = (gait.time >= a.time - SAME_TIME) & (gait.time < b.time - SAME_TIME)
+        done = (gait.time[inside] - a.time) / (b.time - a.time)
+        share[inside] = low + (high - low) * np.clip(done, 0.0, 1.0)
+        offs[inside] = off
+    return share, offs

@@ -27,7 +27,7 @@ from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import Gait, normative_gait
-from exo_pin.gait.phases import masks, percent
+from exo_pin.gait.phases import masks, percent, toe_off
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 
@@ -174,7 +174,7 @@ def test_phases_cover_the_cycle_once():
     for side in ("left", "right"):
         assert sum(mask.astype(int) for mask in masks(gait, side).values()).tolist() == [1] * 100
         stance = gait.stance(side)
-        assert np.array_equal(percent(gait, side) < 62.0, stance)
+        assert np.array_equal(percent(gait, side) < toe_off(gait, side).percent, stance)
 
 
 def test_phases_of_a_recording_shorter_than_a_stride(shared):

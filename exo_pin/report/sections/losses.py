@@ -11,6 +11,7 @@ from exo_pin.arrays import Array
 from exo_pin.compare import PHASES, Comparison, Loss
 from exo_pin.demand import RangeDemand
 from exo_pin.devices import SLIDES, movement_of
+from exo_pin.gait.phases import division
 from exo_pin.report.document.blocks import Block, Figure, Paragraph, Section, Table
 from exo_pin.report.draw import device_drawings as drawn
 from exo_pin.report.draw.heat import heat
@@ -69,7 +70,10 @@ def _phases(compared: Comparison) -> Figure:
             for loss in compared.best
         }
         drawings.append(heat(name, title, [phase.replace("pre-", "pre- ") for phase in PHASES], cells))
-    caption = "By phase of the foot's own cycle (Perry 1992), from its heel strikes and toe-offs."
+    caption = (
+        "By phase of the foot's own cycle: Perry's parts (1992) of stance and swing, "
+        f"{division(compared.walk.gait)}."
+    )
     return Figure(tuple(drawings), caption, columns=2)
 
 
