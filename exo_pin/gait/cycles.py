@@ -43,6 +43,7 @@ class Cycles:
         base: `(k, points, 4, 4)` the pelvis of each cycle, turned to walk along x, its even travel taken
             off, or None if it does not move [m].
         contacts: Kind and side of an event -> its phases (0 to 1) in the cycles that have one such event.
+        sources: Kind and side of an event -> what the events of the walk come from.
     """
 
     side: Side
@@ -52,6 +53,7 @@ class Cycles:
     skipped: tuple[Stride, ...] = ()
     base: Array | None = None
     contacts: Mapping[tuple[EventKind, Side], Array] = field(default_factory=dict)
+    sources: Mapping[tuple[EventKind, Side], str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Number of cycles k."""
@@ -93,7 +95,12 @@ class Cycles:
         T = float(self.duration.mean())
         source = source or f"mean of {len(self)} {self.side} cycle{'s' * (len(self) != 1)}"
         events = tuple(
-            Event(T * float(phases.mean()), kind, side, f"mean of {len(phases)}")
+            Event(
+                T * float(phases.mean()),
+                kind,
+                side,
+                _mean_source(self.sources.get((kind, side), ""), len(phases)),
+            )
             for (kind, side), phases in self.contacts.items()
         )
         return Gait(T * np.arange(len(q)) / len(q), q, base=base, events=events, periodic=True, source=source)
@@ -135,7 +142,21 @@ def cycles(gait: Gait, side: Side = "left", *, points: int = CYCLE_POINTS) -> Cy
         skipped,
         None if base is None else read_only(base),
         _contacts(walk, kept),
+        _sources(walk),
     )
+
+
+def _sources(walk: Gait) -> dict[tuple[EventKind, Side], str]:
+    """What the events of each kind and side come from."""
+    found: dict[tuple[EventKind, Side], set[str]] = {}
+    for event in walk.events:
+        found.setdefault((event.kind, event.side), set()).add(event.source)
+    return {key: " and ".join(sorted(filter(None, sources))) for key, sources in found.items()}
+
+
+def _mean_source(source: str, n: int) -> str:
+    """The source of a mean event: whether it was measured depends on what it is the mean of."""
+    return ", ".join(filter(None, (source, f"mean of {n}")))
 
 
 def _on_the_spot(flat: Array) -> Array:

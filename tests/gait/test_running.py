@@ -18,7 +18,7 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from exo_pin import ik
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.errors import GaitError
-from exo_pin.gait import SPEEDS, Event, Gait, manner, normative_gait
+from exo_pin.gait import SPEEDS, Event, Gait, cycles, manner, normative_gait
 from exo_pin.gait.running_method import RUNNING_SOURCES
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.kinematics import events, plausibility, walk_numbers, with_plates
@@ -256,3 +256,15 @@ def test_a_sample_that_jumps_in_a_run_is_an_outlier(supple, at):
     q[k, JOINTS.index("left_knee_flexion")] += np.radians(15)
     (reason,) = plausibility(supple, Gait(gait.time, q, base=gait.base)).reasons
     assert f"left_knee_flexion at {gait.time[k]:.3f} s" in reason
+
+
+def test_the_mean_cycle_of_a_run_is_a_run_whose_contacts_nobody_measured(supple):
+    gait = KINDS["run"].gait(supple)
+    run = dataclasses.replace(gait, events=events(supple, gait))
+    mean = cycles(run, "left").average()
+    assert manner(mean) == "run"
+    known = walk_numbers(supple, mean)
+    assert "left out" in known.unknown
+    assert not [name for name in known.numbers if name.endswith(("stance", "swing", "support", "flight"))]
+    measured = dataclasses.replace(gait, events=tuple(KINDS["run"].truth()))
+    assert walk_numbers(supple, cycles(measured, "left").average()).unknown == ""
