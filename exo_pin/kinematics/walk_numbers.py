@@ -25,10 +25,12 @@ from exo_pin.gait import (
     strides,
     walk_estimate,
 )
-from exo_pin.gait.event import whole_stances
+from exo_pin.gait.event import Event, whole_stances
+from exo_pin.gait.heading import heading
 from exo_pin.gait.manner import contacts_are_measured
 from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.gait.published_ranges import CITATIONS
+from exo_pin.gait.spatiotemporal import ground_velocity
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import unrolled
 from exo_pin.gait.toe_clearance import toe_clearances
@@ -191,20 +193,38 @@ def _numbers(gait: Gait, time: Array, heels: Array) -> dict[str, Number]:
 
 
 def _estimated(gait: Gait, estimate: StrideEstimate, time: Array, heels: Array) -> dict[str, Number]:
-    """The numbers of an estimated stride; speed and length where it was measured from toe-off to toe-off."""
+    """The numbers of an estimated stride: between toe-offs where it was measured there, else of its step."""
+    pelvis = None if gait.base is None else gait.base[:, :2, 3]
     once = {"cadence": (120 / estimate.duration, "steps/min"), "stride_time": (estimate.duration, "s")}
     strikes = [event for event in gait.events if event.kind == "heel_strike"]
+    # without a whole stance nothing tells whether the ground moves: no treadmill's speed, no length
+    stood = any(True for side in SIDES for _ in whole_stances(gait.events, side))
     for a, b in pairwise(strikes):
         if a.side != b.side:
             once[f"{b.side}_step_time"] = (b.time - a.time, "s")
+            if stood and not estimate.spans:
+                along = _step_length(gait, time, heels, (a, b))
+                once |= {"speed": (along / (b.time - a.time), "m/s"), f"{b.side}_step_length": (along, "m")}
     for side in SIDES:
         for start, end in whole_stances(gait.events, side):
             once[f"{side}_stance"] = (100 * (end - start) / estimate.duration, "%")
     numbers = {name: Number(x, math.nan, 1, unit) for name, (x, unit) in once.items()}
     if estimate.spans:
-        pelvis = None if gait.base is None else gait.base[:, :2, 3]
         numbers |= numbers_of(time, heels, gait.events, pelvis=pelvis, spans=estimate.spans)
     return numbers
+
+
+def _step_length(gait: Gait, time: Array, heels: Array, strikes: tuple[Event, Event]) -> float:
+    """From one foot's strike to the other's over the ground, along the pelvis's mean heading [m]."""
+    pelvis = None if gait.base is None else gait.base[:, :2, 3]
+    places = [
+        [np.interp(strike.time, time, heels[:, SIDES.index(strike.side), axis]) for axis in range(2)]
+        for strike in strikes
+    ]
+    ground = ground_velocity(time, heels, gait.events, pelvis)
+    step = np.subtract(places[1], places[0]) - ground * (strikes[1].time - strikes[0].time)
+    angle = heading(gait) or 0.0
+    return float(step @ [math.cos(angle), math.sin(angle)])
 
 
 def _at_markers(gait: Gait, feet: FootMarkers) -> dict[str, tuple[Number, str]]:

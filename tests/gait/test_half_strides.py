@@ -87,6 +87,22 @@ def test_numbers_of_an_estimated_stride_are_those_of_the_whole_walk(robot):
         assert half.numbers[name].mean == pytest.approx(whole.numbers[name].mean, rel=0.02), name
 
 
+@pytest.mark.parametrize("turn", [0.0, 2.0])
+def test_a_doubled_step_has_length_and_speed_along_the_heading(robot, turn):
+    """The normal walk's steps are equal, so its whole strides are the truth."""
+    assert "speed" not in walk_numbers(robot, part(0.95, 1.55)).numbers  # no whole stance: a treadmill?
+    half = part(0.95, 1.62)
+    assert "twice the step time" in walk_estimate(half).by
+    base = np.array(half.base)
+    c, s = np.cos(turn), np.sin(turn)
+    R = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    base[:, :3, 3] = base[:, :3, 3] @ R.T
+    base[:, :3, :3] = R @ base[:, :3, :3]
+    whole, found = walk_numbers(robot, WALK).numbers, walk_numbers(robot, replace(half, base=base)).numbers
+    assert found["speed"].mean == pytest.approx(whole["speed"].mean, rel=0.05)
+    assert found["right_step_length"].mean == pytest.approx(whole["right_step_length"].mean, rel=0.05)
+
+
 def test_a_half_stride_of_a_laboratory_is_alike_in_report_player_and_numbers(robot, shared):
     """Lai-Arnold subject 6: left toe-offs at 0.12 and 1.31 s by its force plates, one strike of each foot."""
     from exo_pin.formats import load_forces, load_gait
