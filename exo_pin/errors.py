@@ -26,10 +26,38 @@ __all__ = [
     "GaitError",
     "LimitError",
     "UnknownNameError",
+    "hint",
+    "same_name",
 ]
 
 
 _SHOWN = 45  # names in a message: all sizes of a body fit
+
+
+def same_name(name: str, known: Iterable[str]) -> str | None:
+    """The known name that differs in capitals, hyphens or spaces at most; None if there is not one alone."""
+    names = tuple(known)
+    if name in names:
+        return name
+    found = [other for other in names if _spelled(other) == _spelled(name)]
+    return found[0] if len(found) == 1 else None
+
+
+def hint(name: str, known: Iterable[str]) -> str:
+    """What a name that does not exist was meant to be, as a sentence: the closest ones, or all."""
+    names = tuple(known)
+    spelled = {_spelled(other): other for other in reversed(names)}
+    close = difflib.get_close_matches(_spelled(name), spelled, n=3)
+    nearness = [difflib.SequenceMatcher(None, _spelled(name), other).ratio() for other in close]
+    best = [spelled[other] for other, near in zip(close, nearness, strict=True) if near == max(nearness)]
+    if best:
+        return f"did you mean {' or '.join(map(repr, sorted(best)))}?"
+    return f"known: {', '.join(names[:_SHOWN])}" + (" ..." if len(names) > _SHOWN else "")
+
+
+def _spelled(name: str) -> str:
+    """A name without what people type differently: capitals, hyphens, spaces."""
+    return "_".join(name.casefold().replace("-", " ").replace("_", " ").split())
 
 
 class ExoPinError(Exception):
@@ -51,10 +79,7 @@ class UnknownNameError(DescriptionError):
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        close = difflib.get_close_matches(name, self.known, n=1)
-        some = ", ".join(self.known[:_SHOWN]) + (" ..." if len(self.known) > _SHOWN else "")
-        hint = f"did you mean {close[0]!r}?" if close else f"known: {some}"
-        super().__init__(f"unknown {kind} {name!r}; {hint}")
+        super().__init__(f"unknown {kind} {name!r}; {hint(name, self.known)}")
 
 
 class GaitError(ExoPinError):

@@ -68,8 +68,18 @@ def checked(name: str, value: object) -> float:
         raise DescriptionError(f"{name} is {value!r}; a number of {accepted}")
     number = float(value)
     if not size.low <= number <= size.high:
-        raise DescriptionError(f"{name} = {number:g} {size.unit} is not plausible; {accepted}")
+        meant = _in_other_unit(number, size)
+        raise DescriptionError(f"{name} = {number:g} {size.unit} is not plausible; {accepted}{meant}")
     return number
+
+
+def _in_other_unit(number: float, size: Size) -> str:
+    """The number that is meant where it was given in cm, mm or g, as a question; else nothing."""
+    smaller = {"cm": 1e-2, "mm": 1e-3} if size.unit == "m" else {"g": 1e-3}
+    for unit, scale in smaller.items():
+        if size.low <= scale * number <= size.high:
+            return f" (did you mean {scale * number:g} {size.unit}, which is {number:g} {unit}?)"
+    return ""
 
 
 def checked_limits(limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:

@@ -14,6 +14,7 @@ from typing import Any
 
 from exo_pin import scratch
 from exo_pin.cli import stopping
+from exo_pin.cli.parser import Parser
 from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError
 from exo_pin.version import __version__
 
@@ -118,7 +119,7 @@ def _discard_output() -> None:
 
 def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
     """The parser. It imports only the command in use, so that help stays quick."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="exo-pin",
         description="A person's walk becomes an exoskeleton's walk.",
         epilog=_EPILOG,

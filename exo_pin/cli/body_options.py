@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
 from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.anatomy.sized_body import SizedBody, body_of_file, sized_body
-from exo_pin.anatomy.sizes import LEG_SIZES
-from exo_pin.cli import show, trials
+from exo_pin.anatomy.sizes import LEG_SIZES, SIZES
+from exo_pin.cli import measures, show, trials
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -25,11 +26,19 @@ def add(parser: argparse.ArgumentParser) -> None:
     """The body: a file, or a person's measures, or both (measures win)."""
     group = parser.add_argument_group("body (default: the person in the file, where it states or shows one)")
     group.add_argument("--body", metavar="FILE", help="body file, as `exo-pin body` writes it")
-    group.add_argument("--stature", type=float, metavar="M", help="height of the person [m] (default: 1.75)")
-    group.add_argument("--mass", type=float, metavar="KG", help="mass of the person [kg] (default: 70)")
+    group.add_argument(
+        "--stature", type=measures.metres, metavar="M", help="height of the person [m] (default: 1.75)"
+    )
+    group.add_argument(
+        "--mass", type=measures.kilograms, metavar="KG", help="mass of the person [kg] (default: 70)"
+    )
     group.add_argument("--sex", choices=("male", "female"), help="whose segment masses (default: male)")
-    group.add_argument("--waist-width", type=float, metavar="M", help="inner width of the waist ring [m]")
-    group.add_argument("--hip-width", type=float, metavar="M", help="between the hip joint centres [m]")
+    group.add_argument(
+        "--waist-width", type=measures.metres, metavar="M", help="inner width of the waist ring [m]"
+    )
+    group.add_argument(
+        "--hip-width", type=measures.metres, metavar="M", help="between the hip joint centres [m]"
+    )
     group.add_argument("--no-wearer", action="store_true", help="the bare device: nobody's mass in it")
     group.add_argument(
         "--set",
@@ -121,7 +130,7 @@ def _row(title: str, measures: Sequence[Measure | None], name: str) -> list[str]
 
 
 def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
-    """`name=value` as a pair; numbers and true/false are read as such.
+    """`name=value` as a pair; numbers and true/false are read as such, a size with or without its unit.
 
     Raises:
         DescriptionError: There is no sign in it.
@@ -131,10 +140,13 @@ def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
         raise DescriptionError(f"{text!r} is not of the form name{sign}value")
     if value in ("true", "false"):
         return name, value == "true"
-    try:
-        return name, float(value)
-    except ValueError:
-        return name, value
+    with contextlib.suppress(ValueError):
+        return name, measures.number(value)
+    size = SIZES.get(name) or LEG_SIZES.get(name)
+    if size is not None:
+        with contextlib.suppress(argparse.ArgumentTypeError):
+            return name, (measures.metres if size.unit == "m" else measures.kilograms)(value)
+    return name, value
 
 
 def _measure_to_json(measure: Measure, name: str) -> dict[str, Any]:

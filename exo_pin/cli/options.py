@@ -11,7 +11,7 @@ from exo_pin.anatomy import HIP_ORDERS, Body
 from exo_pin.anatomy.names import SIGN_PRESETS
 from exo_pin.cli import body_options, plate_options, show, trials
 from exo_pin.cli.opened_files import OpenedFiles
-from exo_pin.errors import DescriptionError, GaitError, UnknownNameError
+from exo_pin.errors import DescriptionError, GaitError, UnknownNameError, same_name
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
@@ -25,13 +25,23 @@ def add_gait(parser: argparse.ArgumentParser, *, default: str | None = "free") -
         f"a gait file (.csv .mot .sto .npz .yaml .json .c3d .trc ...) or a normal walk: {', '.join(SPEEDS)}"
     )
     if default is None:
-        parser.add_argument("gait", metavar="GAIT", help=what)
+        parser.add_argument("gait", metavar="GAIT", type=_walk, help=what)
     else:
         parser.add_argument(
-            "gait", metavar="GAIT", nargs="?", default=default, help=f"{what} (default: {default})"
+            "gait",
+            metavar="GAIT",
+            nargs="?",
+            type=_walk,
+            default=default,
+            help=f"{what} (default: {default})",
         )
     add_preset(parser, "sign convention (and names) of a file that does not tell it")
     trials.add(parser)
+
+
+def _walk(text: str) -> str:
+    """The speed that is meant (`Free`, `very-slow`), or a file's name as it is."""
+    return text if Path(text).exists() else same_name(text, SPEEDS) or text
 
 
 def add_preset(parser: argparse._ActionsContainer, what: str) -> None:

@@ -11,7 +11,7 @@ from exo_pin.anatomy.names import JOINTS
 from exo_pin.devices.actuator import DEFAULT_ACTUATORS, Actuator
 from exo_pin.devices.device import Device, both
 from exo_pin.devices.device_file import load
-from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.errors import FormatError, UnknownNameError, same_name
 
 _CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."
 _TRAVEL = "Travel and speed of the pelvis's slides: a design choice, +-0.10 m and 1 m/s."
@@ -151,8 +151,20 @@ DEVICES: Mapping[str, Device] = MappingProxyType(
 """Every device by name."""
 
 
+_PRODUCTS: Mapping[str, str] = MappingProxyType(
+    {"Exo-H2": "h2", "Ekso": "hk4", "ReWalk": "hk4", "Indego": "hk4", "ATALANTE": "exo12"}
+)
+"""What people call devices of the catalogue, beside their names."""
+
+
+def _known_name(text: str) -> str | None:
+    """The name of the device that is meant, in any capitals."""
+    product = same_name(text, _PRODUCTS)
+    return same_name(text, DEVICES) or (None if product is None else _PRODUCTS[product])
+
+
 def find(device: str | Device) -> Device:
-    """The device of that name, or of that TOML file; a record is handed back.
+    """The device of that name (capitals do not matter), or of that TOML file; a record is handed back.
 
     Raises:
         UnknownNameError: There is no device of that name.
@@ -160,11 +172,12 @@ def find(device: str | Device) -> Device:
     """
     if isinstance(device, Device):
         return device
-    if device in DEVICES:
-        return DEVICES[device]
+    name = _known_name(device)
+    if name is not None:
+        return DEVICES[name]
     if Path(device).suffix.lower() == ".toml":
         own = load(device)
         if own.name in DEVICES:
             raise FormatError(device, f"name {own.name!r} is that of a device of exo_pin; take another")
         return own
-    raise UnknownNameError("device", device, DEVICES)
+    raise UnknownNameError("device", device, (*DEVICES, *_PRODUCTS))

@@ -9,7 +9,7 @@ import numpy as np
 from exo_pin.anatomy import MOVEMENTS, Body
 from exo_pin.anatomy.names import EventKind, Side, Speed
 from exo_pin.arrays import Array
-from exo_pin.errors import GaitError, UnknownNameError
+from exo_pin.errors import GaitError, UnknownNameError, same_name
 from exo_pin.gait.event import Event
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.schwartz2008 import MEAN_ANGLES, MEAN_ANKLE_INVERSION, MEAN_HARMONICS, TIMING
@@ -25,13 +25,13 @@ _LEG_LENGTHS = (0.1, 2.5)
 
 
 def speed_named(name: str) -> Speed:
-    """The speed of that name.
+    """The speed of that name, in any capitals.
 
     Raises:
         UnknownNameError: There is no such speed.
     """
     for speed in SPEEDS:
-        if speed == name:
+        if speed == same_name(name, SPEEDS):
             return speed
     raise UnknownNameError("speed", name, SPEEDS)
 

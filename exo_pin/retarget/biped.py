@@ -10,7 +10,7 @@ import numpy as np
 
 from exo_pin import xacro_files
 from exo_pin.arrays import Array
-from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.errors import DescriptionError, UnknownNameError, same_name
 from exo_pin.examples import located
 from exo_pin.files import read_text
 from exo_pin.retarget import leg_search, target_file
@@ -80,6 +80,9 @@ def find(target: str | Path | Target) -> Target:
         return target_file.load(path)
     if path.suffix.lower() in (".urdf", ".xacro") or path.exists():
         return Target(path.name.partition(".")[0], path)
+    same = same_name(str(target), TARGETS)
+    if same is not None:
+        return TARGETS[same]
     raise UnknownNameError("robot (a name, a .urdf, .xacro or .toml file)", str(target), TARGETS)
 
 

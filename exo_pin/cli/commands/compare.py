@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show
+from exo_pin.cli import measures, options, show
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -66,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin import devices
     from exo_pin.compare import Conditions, compare
 
-    chosen = [devices.find(name) for name in args.devices or devices.DEVICES]
+    chosen = [devices.find(name) for name in measures.listed(args.devices or devices.DEVICES)]
     _check_output(args.output)
     body = options.body_from(args)
     comparison = compare(

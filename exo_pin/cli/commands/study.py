@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import PelvisMotion
-from exo_pin.cli import options, show, stopping
+from exo_pin.cli import measures, options, show, stopping
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -59,11 +59,13 @@ def _configure_plan(parser: argparse.ArgumentParser) -> None:
     plan.add_argument("--devices", nargs="+", metavar="DEVICE", help="names or device files (default: all)")
     plan.add_argument("--speeds", nargs="+", choices=SPEEDS, help="of the normal walk (default: all five)")
     plan.add_argument(
-        "--statures", nargs=2, type=float, metavar=("LOW", "HIGH"), help="[m] (default: 1.50 1.95)"
+        "--statures", nargs=2, type=measures.metres, metavar=("LOW", "HIGH"), help="[m] (default: 1.50 1.95)"
     )
-    plan.add_argument("--step", type=float, metavar="M", help="between statures [m] (default: 0.05)")
     plan.add_argument(
-        "--mass", type=float, metavar="KG", help="of every person (default: as stature squared)"
+        "--step", type=measures.metres, metavar="M", help="between statures [m] (default: 0.05)"
+    )
+    plan.add_argument(
+        "--mass", type=measures.kilograms, metavar="KG", help="of every person (default: as stature squared)"
     )
     plan.add_argument("--sex", choices=("male", "female"), default="male", help="whose segment masses")
     plan.add_argument(
@@ -126,7 +128,7 @@ def _plan(args: argparse.Namespace) -> list[Case]:
     from exo_pin.compare import Conditions
 
     common: dict[str, Any] = {
-        "devices": args.devices or tuple(devices.DEVICES),
+        "devices": measures.listed(args.devices or ()) or tuple(devices.DEVICES),
         "conditions": [Conditions(pelvis, args.passive) for pelvis in _PELVIS[args.pelvis]],
     }
     on_statures = args.statures is not None or args.step is not None
