@@ -31,7 +31,18 @@ __all__ = [
 ]
 
 
-_SHOWN = 45  # names in a message: all sizes of a body fit
+LONGEST_MESSAGE = 300
+"""Characters of an error's message on the command line."""
+
+_LONGEST_LIST = 180  # characters of the known names in a message
+_LONGEST_NAME = 60
+_LONGEST_PATH = 120
+
+
+def shortened(text: str, most: int = LONGEST_MESSAGE) -> str:
+    """A text on one line of printable characters, cut to a length."""
+    line = " ".join("".join(mark if mark.isprintable() else " " for mark in text).split())
+    return line if len(line) <= most else f"{line[: most - 4]} ..."
 
 
 def same_name(name: str, known: Iterable[str]) -> str | None:
@@ -45,14 +56,14 @@ def same_name(name: str, known: Iterable[str]) -> str | None:
 
 def hint(name: str, known: Iterable[str]) -> str:
     """What a name that does not exist was meant to be, as a sentence: the closest ones, or all."""
-    names = tuple(known)
+    names, name = tuple(known), name[:_LONGEST_NAME]
     spelled = {_spelled(other): other for other in reversed(names)}
     close = difflib.get_close_matches(_spelled(name), spelled, n=3)
     nearness = [difflib.SequenceMatcher(None, _spelled(name), other).ratio() for other in close]
     best = [spelled[other] for other, near in zip(close, nearness, strict=True) if near == max(nearness)]
     if best:
-        return f"did you mean {' or '.join(map(repr, sorted(best)))}?"
-    return f"known: {', '.join(names[:_SHOWN])}" + (" ..." if len(names) > _SHOWN else "")
+        return f"did you mean {shortened(' or '.join(map(repr, sorted(best))), _LONGEST_LIST)}?"
+    return f"known: {shortened(', '.join(names), _LONGEST_LIST)}"
 
 
 def _spelled(name: str) -> str:
@@ -79,7 +90,7 @@ class UnknownNameError(DescriptionError):
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        super().__init__(f"unknown {kind} {name!r}; {hint(name, self.known)}")
+        super().__init__(f"unknown {kind} {shortened(name, _LONGEST_NAME)!r}; {hint(name, self.known)}")
 
 
 class GaitError(ExoPinError):
@@ -97,7 +108,8 @@ class FormatError(GaitError):
 
     def __init__(self, path: str | Path, why: str, *, line: int | None = None) -> None:
         self.path, self.why, self.line = Path(path), why, line
-        place = f"{path}:{line}" if line is not None else f"{path}"
+        shown = str(path) if len(str(path)) <= _LONGEST_PATH else f"... {str(path)[-_LONGEST_PATH:]}"
+        place = f"{shown}:{line}" if line is not None else shown
         super().__init__(f"{place}: {why}")
 
 

@@ -25,6 +25,11 @@ def control_character(text: str) -> str:
     return f"U+{ord(found[0]):04X}" if found else ""
 
 
+def without_control(text: str) -> str:
+    """A text for a terminal: U+FFFD stands for each control character."""
+    return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
 def read_lines(path: str | Path) -> list[str]:
     """The lines of a UTF-8 text file without their ends, whatever ends them (Unix, Windows, old Mac).
 

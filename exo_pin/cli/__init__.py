@@ -15,7 +15,8 @@ from typing import Any
 from exo_pin import scratch
 from exo_pin.cli import stopping
 from exo_pin.cli.parser import Parser
-from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError
+from exo_pin.cli.plain_output import plain_output
+from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError, shortened
 from exo_pin.version import __version__
 
 COMMANDS = {
@@ -63,7 +64,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if argv is None else argv)
     try:
-        with stopping.stoppable():
+        with stopping.stoppable(), plain_output():
             return _answered(words)
     except KeyboardInterrupt as stop:
         return stopping.exit_code(stop)
@@ -78,7 +79,7 @@ def _answered(words: list[str]) -> int:
             if sys.stdout is not None:
                 sys.stdout.flush()  # a closed pipe raises here, not while the interpreter exits
     except ExoPinError as error:
-        print(f"exo-pin: {' '.join(str(error).split())}", file=sys.stderr)
+        print(f"exo-pin: {shortened(str(error))}", file=sys.stderr)
         return 1 if isinstance(error, (LimitError, ConvergenceError)) else 2
     except BrokenPipeError:  # `exo-pin dh | head -1`: the reader has closed the pipe
         _discard_output()

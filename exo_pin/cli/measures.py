@@ -7,11 +7,13 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from exo_pin.safe import plain_numbers
+
 _UNITS: Mapping[str, Mapping[str, float]] = {
     "m": {"": 1.0, "m": 1.0, "cm": 1e-2, "mm": 1e-3},
     "kg": {"": 1.0, "kg": 1.0, "g": 1e-3},
 }
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*")
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*", re.ASCII)
 
 
 def metres(text: str) -> float:
@@ -38,7 +40,7 @@ def number(text: str) -> float:
     Raises:
         ValueError: It is none.
     """
-    return float(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
+    return plain_numbers.number(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
 
 
 def listed(words: Iterable[str]) -> list[str]:

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
+from exo_pin.cli.plain_output import unfiltered
+
 Item = TypeVar("Item")
 
 _SAMPLES_A_STEP = 2000
@@ -41,14 +43,14 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
         else:
             drawn.add_column(name, no_wrap=not k, min_width=_widest(name, rows, k, words=k > 0))
     for row in rows:
-        drawn.add_row(*row)
+        drawn.add_row(*map(plain, row))
     print(title)
     console = Console(highlight=False)
     least = console.measure(drawn, options=console.options.update(max_width=_ANY_WIDTH)).minimum
     wide = Console(highlight=False, width=max(console.width, least))
     with wide.capture() as text:  # rich itself would end the program with exit code 1 at a closed pipe
         wide.print(drawn)
-    print(text.get(), end="")
+    print(text.get(), end="", file=unfiltered(sys.stdout))  # with our own colours
 
 
 def _widest(heading: str, rows: Sequence[Sequence[str]], k: int, *, words: bool = False) -> int:

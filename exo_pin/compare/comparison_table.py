@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from exo_pin.compare.comparison import Comparison
 from exo_pin.compare.joint_choices import JointChoices
 from exo_pin.compare.loss import Loss
+from exo_pin.safe import spreadsheet_cells
 
 LOSS_COLUMNS = (
     "device",
@@ -66,7 +67,7 @@ def markdown(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
 
 def csv(columns: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
     """A CSV table; units stand at the end of the names, `_` between words."""
-    return "\n".join(",".join(line) for line in [[c.replace(" ", "_") for c in columns], *lines]) + "\n"
+    return spreadsheet_cells.table([[name.replace(" ", "_") for name in columns], *lines])
 
 
 def conditions(comparison: Comparison) -> str:

@@ -6,7 +6,7 @@ import csv
 import dataclasses
 import io
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_type_hints
@@ -15,6 +15,7 @@ from exo_pin.anatomy.names import PassiveJoints, PelvisMotion, Sex
 from exo_pin.errors import FormatError
 from exo_pin.files import read_text, write_text
 from exo_pin.gait.phases import PHASES
+from exo_pin.safe.spreadsheet_cells import marked, unmarked
 
 MotionKind = Literal["best", "copy"]
 """The least-squares best towards the recorded soles, or the plain copy of the joints."""
@@ -164,20 +165,33 @@ def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
     content = read_text(path)
     if unfinished:
         content = content[: content.rfind("\n") + 1]
-    lines = csv.reader(io.StringIO(content))
-    if tuple(next(lines, ())) != TABLE_COLUMNS and not (unfinished and not content):
+    lines = _lines(path, content)
+    if next(lines, (1, []))[1] != list(TABLE_COLUMNS) and not (unfinished and not content):
         raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
     rows = []
-    for line in lines:
+    for number, line in lines:
         try:
             values = [read(cell) for read, cell in zip(_COLUMN_READERS, line, strict=True)]
-        except ValueError as error:
-            raise FormatError(path, f"not a row of a study: {error}", line=lines.line_num) from None
+        except ValueError:
+            why = f"not a row of a study: {len(TABLE_COLUMNS)} cells are expected, numbers and texts"
+            raise FormatError(path, why, line=number) from None
         rows.append(Row(**dict(zip(TABLE_COLUMNS, values, strict=True))))
     return rows
+
+
+def _lines(path: str | Path, content: str) -> Iterator[tuple[int, list[str]]]:
+    """The cells of each line with its number."""
+    lines = csv.reader(io.StringIO(content))
+    try:
+        for line in lines:
+            yield lines.line_num, list(map(unmarked, line))
+    except csv.Error:
+        why = f"a cell has more than {csv.field_size_limit()} characters, or a quote has no end"
+        raise FormatError(path, why, line=lines.line_num) from None
 
 
 def _cell(value: str | int | float) -> str:
     if isinstance(value, float):
         return "" if math.isnan(value) else repr(value)
-    return " ".join(str(value).split())  # one row is one line, so that an unfinished row is recognised
+    text = " ".join(str(value).split())  # one row is one line, so that an unfinished row is recognised
+    return marked(text)

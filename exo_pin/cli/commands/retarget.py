@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from exo_pin.cli import options, show
 from exo_pin.files import write_text
+from exo_pin.safe import spreadsheet_cells
 
 if TYPE_CHECKING:
     from exo_pin.retarget import LimitUse, Retargeted
@@ -126,6 +127,6 @@ def _csv(result: Retargeted) -> str:
     from numpy import column_stack, degrees
 
     columns = [result.robot.column(joint) for joint in result.joints]
-    head = ",".join(["time_s", *(f"{joint}_deg" for joint in result.joints)])
+    head = spreadsheet_cells.table([["time_s", *(f"{joint}_deg" for joint in result.joints)]]).strip()
     rows = column_stack([result.time, degrees(result.q[:, columns])])
     return "\n".join([head, *(",".join(f"{x:.9g}" for x in row) for row in rows)]) + "\n"

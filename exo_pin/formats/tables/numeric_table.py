@@ -12,6 +12,7 @@ import numpy as np
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError
 from exo_pin.gait.event import SAME_TIME
+from exo_pin.safe import plain_numbers
 
 MOST_ROWS = 2_000_000
 """Of a table: five hours at 100 Hz; bounds memory (a walk of this size takes 1.2 GB)."""
@@ -158,7 +159,7 @@ def parse(
     bad = np.isinf(values) if gaps else ~np.isfinite(values)
     if bad.any():
         row, k = np.argwhere(bad)[0]
-        why = f"{names[k]} is {values[row, k]:g}: expected a finite number"
+        why = f"{names[k][:80]} is {values[row, k]:g}: expected a finite number"
         raise FormatError(path, why, line=table.lines[row])
     return table
 
@@ -181,17 +182,19 @@ def _culprit(
         for name, cell in zip(names, cells, strict=True):
             if not is_number(cell):
                 shown = cell.strip()[:40]
-                return FormatError(path, f"{name} is {shown!r}, expected a number like 12.5", line=number)
-    return FormatError(path, f"cannot be read as numbers: {error}")
+                return FormatError(
+                    path, f"{name[:80]} is {shown!r}, expected a number like 12.5", line=number
+                )
+    return FormatError(path, f"cannot be read as numbers: {error[:150]}")
 
 
 def is_number(cell: str) -> bool:
     """Whether a cell holds a number."""
     try:
-        float(cell)
+        plain_numbers.number(cell)
     except ValueError:
         return False
-    return "_" not in cell  # Python reads 1_000, other programs do not
+    return True
 
 
 def check_columns(path: Path, names: Sequence[str], expected: Iterable[str], *, line: int) -> None:
