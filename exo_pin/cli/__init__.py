@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -84,6 +85,11 @@ def _answered(words: list[str]) -> int:
     except BrokenPipeError:  # `exo-pin dh | head -1`: the reader has closed the pipe
         _discard_output()
         return 0
+    except OSError as error:
+        if error.errno != errno.ENAMETOOLONG:
+            raise
+        print(f"exo-pin: {shortened(str(error.filename), 120)}: the file name is too long", file=sys.stderr)
+        return 2
 
 
 def _run(words: list[str]) -> int:
