@@ -51,3 +51,15 @@ def answer(args: argparse.Namespace, body: Body, gait: Gait, **more: Any) -> Dev
     from exo_pin.feasible import device_walk
 
     return device_walk(gait, args.device, body, pelvis=args.pelvis, knee=args.knee, **more)
+
+
+def print_answer(found: DeviceWalk, before: str = "") -> None:
+    """Loss and verdict in sentences, and a warning where its treadmill cannot run so.
+
+    Args:
+        found: The device's answer.
+        before: What stands before the verdict.
+    """
+    print(f"{found.loss_sentence}\n{before}{found.sentence}")
+    if found.belt_warning:
+        print(found.belt_warning)

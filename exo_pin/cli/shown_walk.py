@@ -24,10 +24,6 @@ if TYPE_CHECKING:
     from exo_pin.viewer import Scene, SceneOptions
 
 
-_BELT = 0.005
-"""A belt that is beyond the device's speeds by less than this is not [m/s]: rounding of two decimals."""
-
-
 def add(parser: argparse.ArgumentParser) -> None:
     """Gait, body and playback speed."""
     options.add_gait(parser)
@@ -107,24 +103,18 @@ def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
         found.gait,
         chosen,
         reference=gait if same else answer.gait,
-        torques=torques if same else None,
+        torques=torque_options.of_shown(torques, gait, answer.gait),
     )
     return _with_belt_warning(scene, answer)
 
 
 def _with_belt_warning(scene: Scene, answer: DeviceWalk) -> Scene:
     """The scene with a warning where its belt runs faster or slower than the device's."""
-    belt, speeds = scene.facts.marks.belt, answer.device.treadmill
-    if belt is None or speeds is None or speeds[0] - _BELT <= belt.speed <= speeds[1] + _BELT:
+    if scene.facts.marks.belt is None or not answer.belt_warning:
         return scene
-    warning = (
-        f"Warning: the belt runs at {belt.speed:.2f} m/s here; {answer.title}'s runs at {speeds[0]:.2f} to "
-        f"{speeds[1]:.2f} m/s."
-    )
-    print(warning)
-    return dataclasses.replace(
-        scene, facts=dataclasses.replace(scene.facts, notes=(warning, *scene.facts.notes))
-    )
+    notes = (answer.belt_warning, *scene.facts.notes)
+    print(answer.belt_warning)
+    return dataclasses.replace(scene, facts=dataclasses.replace(scene.facts, notes=notes))
 
 
 def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Torques
+    from exo_pin.gait import Gait, Torques
 
 _OPENSIM = (".mot", ".sto")
 
@@ -40,3 +41,22 @@ def given(args: argparse.Namespace) -> Torques | None:
     if preset is None and Path(args.gait).suffix.lower() in _OPENSIM:
         preset = knee_preset(files.open(args.gait), model=args.model)
     return load_torques(torques, preset=preset)
+
+
+def of_shown(torques: Torques | None, recorded: Gait, shown: Gait) -> Torques | None:
+    """The torques, unless the walk that is shown has other times; then a note, and None.
+
+    Args:
+        torques: Of the recorded walk.
+        recorded: The walk as given.
+        shown: The walk that is shown, perhaps slower.
+    """
+    import numpy as np
+
+    if torques is None or np.array_equal(recorded.time, shown.time):
+        return torques
+    print(
+        "note: --torques is left out: they are those of the recorded walk, a slower one is shown",
+        file=sys.stderr,
+    )
+    return None

@@ -6,9 +6,11 @@ Torques count where they are given (`exo_pin.gait.Torques`): computing them need
 from exo_pin.feasible.amplitude import LARGEST_AMPLITUDE
 from exo_pin.feasible.assessment import feasible
 from exo_pin.feasible.collision import Nearest, nearest
+from exo_pin.feasible.concession import Concession
 from exo_pin.feasible.device_fit import Fit
-from exo_pin.feasible.device_walk import Concession, DeviceWalk, device_walk, pelvis_by_default
+from exo_pin.feasible.device_walk import DeviceWalk
 from exo_pin.feasible.feasibility import LARGEST_CADENCE, Failure, Feasibility
+from exo_pin.feasible.grading import device_walk, pelvis_by_default
 
 __all__ = [
     "LARGEST_AMPLITUDE",

@@ -1,61 +1,21 @@
-"""A device's answer to a walk: verdict, reason, smallest concession, motion and loss, one for every command.
-
-Three grades. The device *fits* where it can copy the walk in the joints that it drives; it fits with a
-*concession* where the recorded knee must be held at its stop, or the walk be slower or smaller; else *no*.
-Joints that it locks do not enter the verdict: what the feet lose by them stands beside it.
-"""
+"""A device's answer to a walk: verdict, reason, concessions, motion, loss and belt, one for every command."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from exo_pin import devices
-from exo_pin.anatomy import Body
-from exo_pin.anatomy.names import ConcessionKind, FitWord, HipOrder, KneeRule, PelvisMotion
+from exo_pin.anatomy.names import FitWord
 from exo_pin.compare import Conditions, Loss, compare
 from exo_pin.devices import Device
-from exo_pin.feasible.amplitude import with_amplitude
-from exo_pin.feasible.assessment import feasible
+from exo_pin.feasible.concession import Concession
 from exo_pin.feasible.feasibility import Feasibility
-from exo_pin.feasible.knee_stop import HeldKnees, bent, held_at_stop
-from exo_pin.gait import Gait, Torques
-from exo_pin.robot import Robot, load_robot
+from exo_pin.gait import Gait
+from exo_pin.ground import belt_speed
 
-LEAST_SHARE = 0.5
-"""Less than this share of the recorded cadence or amplitude is no concession but another walk (a choice)."""
-
-_HUNDREDTHS = 100
-
-
-@dataclass(frozen=True)
-class Concession:
-    """What the walk must give up so that the device can do it.
-
-    Attributes:
-        what: The kind.
-        how_much: Largest distance of a foot [mm], or the factor on cadence or amplitude.
-        unit: `"mm"` or `"times"`.
-        note: Feet and frames, or the reason.
-    """
-
-    what: ConcessionKind
-    how_much: float
-    unit: str
-    note: str
-
-    @property
-    def words(self) -> str:
-        """The concession in words, with its reason."""
-        if self.what == "knee held at its stop":
-            return f"{self.what}: {self.note}"
-        return f"{self.what} {self.how_much:.2f} ({self.note})"
-
-    def facts(self) -> dict[str, Any]:
-        """Plain values for JSON."""
-        return {"what": self.what, "how_much": self.how_much, "unit": self.unit}
+_BELT = 0.005
+"""A belt that is beyond the device's speeds by less than this is not [m/s]: rounding of two decimals."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +55,28 @@ class DeviceWalk:
         """The device's best motion towards the feet of `gait`, and what it misses."""
         body = self.as_recorded.robot.body
         return compare(self.gait, [self.device], body, conditions=self.conditions).best[0]
+
+    @cached_property
+    def belt(self) -> float | None:
+        """Speed of the treadmill under the device's motion [m/s]; None without one, or where it stands."""
+        motion = self.loss.motion
+        if self.device.treadmill is None or motion.gait.base is None:
+            return None
+        corners = motion.corners.reshape(len(motion.gait), -1, 3)
+        return belt_speed(motion.gait, motion.gait.base, corners) or None
+
+    @property
+    def belt_warning(self) -> str:
+        """What is wrong with the speed of the treadmill, in words; empty where nothing is."""
+        if self.belt is None or self.device.treadmill is None:
+            return ""
+        slowest, fastest = self.device.treadmill
+        if slowest - _BELT <= self.belt <= fastest + _BELT:
+            return ""
+        return (
+            f"Warning: the belt runs at {self.belt:.2f} m/s here; {self.title}'s runs at {slowest:.2f} to "
+            f"{fastest:.2f} m/s."
+        )
 
     @property
     def reason(self) -> str:
@@ -141,86 +123,5 @@ class DeviceWalk:
             "pelvis": self.conditions.pelvis,
             "sole_rms_mm": 1e3 * self.loss.rms,
             "sole_max_mm": 1e3 * self.loss.sole_spread.max,
+            "belt_m_s": self.belt,
         }
-
-
-def pelvis_by_default(device: Device) -> PelvisMotion:
-    """A device whose stand has slides holds the pelvis itself; any other goes along with the recorded one."""
-    return "device" if device.slides else "recorded"
-
-
-def device_walk(
-    gait: Gait,
-    device: str | Device = "exo12",
-    body: Body | None = None,
-    *,
-    pelvis: PelvisMotion | None = None,
-    knee: KneeRule = "stop",
-    acceleration: float | None = None,
-    gap: float = 0.0,
-    torques: Torques | None = None,
-    hip_order: HipOrder = "clinical",
-) -> DeviceWalk:
-    """A device's answer to a walk.
-
-    Args:
-        gait: The walk. The accelerations of a recording carry its noise: filter it first.
-        device: Name, file or record.
-        body: Who wears it; `Body.from_stature()` if left out.
-        pelvis: Who moves the pelvis; `pelvis_by_default` if left out.
-        knee: What becomes of a recorded knee beyond its stop.
-        acceleration: Largest acceleration of every joint [rad/s^2]; the device's own if left out.
-        gap: Distance that parts of the device must keep [m].
-        torques: Joint torques of the walk; not checked if left out, nor at another cadence or amplitude.
-        hip_order: Order of the hip axes, which have the limits.
-
-    Raises:
-        UnknownNameError: The device is unknown.
-        GaitError: The torques are at other times than the walk.
-    """
-    device = devices.find(device)
-    conditions = Conditions(pelvis or pelvis_by_default(device))
-
-    def assessed(walk: Gait, tau: Torques | None) -> Feasibility:
-        return feasible(
-            walk, device, body, acceleration=acceleration, gap=gap, torques=tau, hip_order=hip_order
-        )
-
-    full = load_robot(body)
-    start = bent(full, gait) if knee == "bend" and _hyperextends(full, gait) else gait
-    first = assessed(start, torques)
-    held = held_at_stop(full, first.robot, start) if knee == "stop" else None
-    made = () if held is None else (_knee(held),)
-    walk = start if held is None else held.gait
-    found = first if held is None else assessed(walk, torques)
-    if found.failures:
-        tried = (pair for pair in _other_walks(walk, found) if not assessed(pair[1], None).failures)
-        concession, walk = next(tried, (None, start))
-        made = () if concession is None else (*made, concession)
-        verdict: FitWord = "no" if concession is None else "concession"
-    else:
-        verdict = "concession" if made else "fits"
-    return DeviceWalk(device, gait, walk, first, verdict, made, conditions)
-
-
-def _hyperextends(robot: Robot, gait: Gait) -> bool:
-    return held_at_stop(robot, robot, gait) is not None
-
-
-def _knee(held: HeldKnees) -> Concession:
-    return Concession("knee held at its stop", 1e3 * float(held.moved.max()), "mm", held.words)
-
-
-def _other_walks(gait: Gait, found: Feasibility) -> list[tuple[Concession, Gait]]:
-    """Slower and smaller walks that the limits allow, the one nearest to the walk first."""
-    why = "; ".join(dict.fromkeys(f"{failure.what}: {failure.how}" for failure in found.failures))
-    cadence = _floor(found.cadence) if found.cadence_decides else 0.0
-    amplitude = _floor(found.amplitude) if found.amplitude_decides else 0.0
-    slower = (Concession("cadence", cadence, "times", why), gait.slowed(1.0 / max(cadence, LEAST_SHARE)))
-    smaller = (Concession("amplitude", amplitude, "times", why), with_amplitude(gait, amplitude))
-    nearest_first = sorted((slower, smaller), key=lambda pair: -pair[0].how_much)
-    return [pair for pair in nearest_first if LEAST_SHARE <= pair[0].how_much < 1.0]
-
-
-def _floor(factor: float) -> float:
-    return math.floor(_HUNDREDTHS * factor) / _HUNDREDTHS

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import SIDES
-from exo_pin.anatomy.names import Side, SupportStyle
-from exo_pin.arrays import Array, Mask
+from exo_pin.anatomy.names import SupportStyle
+from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
-from exo_pin.gait.time_series import runs
+from exo_pin.ground.misfit import ahead, in_mm, misfit
 from exo_pin.ground.stance import Intervals, lowest_corners, standing
 
 _SOFTNESS = 0.003
@@ -51,7 +51,9 @@ class Support:
         sink: How deep a sole corner gets below the ground [m].
         hover: How far the standing foot is above the ground in single support [m].
         gap: How far the higher foot is above the ground in double support [m].
-        slide: How far the weight-bearing corner slides sideways during one single support [m].
+        slide: Largest path of a bearing heel or ball over belt or ground during one single support, sideways,
+            of the feet as shown [m].
+        slide_along: The same fore and aft [m].
         note: All that in words.
     """
 
@@ -62,6 +64,7 @@ class Support:
     hover: float
     gap: float
     slide: float
+    slide_along: float
     note: str
 
 
@@ -83,19 +86,37 @@ def support(
     """
     if style not in STYLES:
         raise UnknownNameError("support", style, STYLES)
-    overground = bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > _OVERGROUND)
+    overground = _goes_through_the_room(base)
     shift, motion = STYLES[style](gait, corners, stance, overground)
     shown, feet = base.copy(), corners + shift[:, None]
     shown[:, :3, 3] += shift
-    speed = 0.0 if overground else max(-float(_bearing_velocity(gait, feet)[:, 0].mean()), 0.0)
-    numbers = _remains(gait, feet, stance)
-    return Support(shown, speed, overground, *numbers, f"{subject} {motion} {_words(*numbers)}")
+    speed = belt_speed(gait, base, feet)
+    rest = misfit(gait, ahead(feet, base) if overground else feet, stance, speed)
+    note = f"{subject} {motion} {rest.words('the ground' if overground else 'the belt')}"
+    return Support(shown, speed, overground, *rest, note)
+
+
+def belt_speed(gait: Gait, base: Array, corners: Array) -> float:
+    """Speed of the treadmill under a walk, backwards [m/s]: that of the corners which bear it; 0 over ground.
+
+    Args:
+        gait: The walk.
+        base: `(n, 4, 4)` pose of the pelvis.
+        corners: `(n, 8, 3)` positions of `CORNERS` with that base, or shifted by a path that comes back [m].
+    """
+    if _goes_through_the_room(base):
+        return 0.0
+    return max(-float(_bearing_velocity(gait, corners)[:, 0].mean()), 0.0)
+
+
+def _goes_through_the_room(base: Array) -> bool:
+    return bool(np.linalg.norm(base[-1, :2, 3] - base[0, :2, 3]) > _OVERGROUND)
 
 
 def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) -> tuple[Array, str]:
     z = _smooth(gait, -np.sum(_weights(corners, _SOFTNESS) * corners[..., 2], axis=1))
     z += max(-float((corners[..., 2] + z[:, None]).min()) - DEEPEST_SINK, 0.0)
-    rise = f"raised and lowered by {_mm(np.ptp(corners[..., 2].min(axis=1)))}"
+    rise = f"raised and lowered by {in_mm(np.ptp(corners[..., 2].min(axis=1)))}"
     if overground:
         still = np.zeros(len(z))
         motion = f"is {rise} so that the soles stay on the ground."
@@ -104,8 +125,8 @@ def _carried(gait: Gait, corners: Array, stance: Intervals, overground: bool) ->
     path = [_smooth(gait, _integral(gait, rate.mean() - rate)) for rate in drift.T]
     x, y = (line - line.mean() for line in path)
     motion = (
-        f"is {rise}, moved fore and aft by {_mm(np.ptp(x))} and sideways by "
-        f"{_mm(np.ptp(y))}, so that the standing foot stays on the belt, which runs at "
+        f"is {rise}, moved fore and aft by {in_mm(np.ptp(x))} and sideways by "
+        f"{in_mm(np.ptp(y))}, so that the standing foot stays on the belt, which runs at "
         f"{round(-drift[:, 0].mean(), 2) + 0.0:.2f} m/s."
     )
     return np.stack([x, y, z], axis=1), motion
@@ -168,35 +189,3 @@ def _low(values: Array, harmonics: int) -> Array:
     spectrum = np.fft.rfft(values)
     spectrum[harmonics + 1 :] = 0
     return np.fft.irfft(spectrum, len(values))
-
-
-def _remains(gait: Gait, feet: Array, stance: Intervals) -> tuple[float, float, float, float]:
-    """Sink, hover, gap and slide of the shown feet [m]."""
-    time = gait.time - gait.time[0]
-    left, right = (standing(stance, side, time) for side in SIDES)
-    low = lowest_corners(feet)
-    single: dict[Side, Mask] = {"left": left & ~right, "right": right & ~left}
-    hover = max(low[side][single[side]].max(initial=0.0) for side in SIDES)
-    higher = np.maximum(low["left"], low["right"])
-    sideways = _integral(gait, _bearing_velocity(gait, feet)[:, 1])
-    spans = [slice(*span) for side in SIDES for span in runs(single[side])]
-    slide = max((float(np.ptp(sideways[span])) for span in spans), default=0.0)
-    return (
-        max(-float(feet[..., 2].min()), 0.0),
-        float(hover),
-        float(higher[left & right].max(initial=0.0)),
-        slide,
-    )
-
-
-def _words(sink: float, hover: float, gap: float, slide: float) -> str:
-    return (
-        f"What remains: sole corners sink by up to {_mm(sink)}, the standing foot is up to {_mm(hover)} "
-        f"above the ground, the higher one in double support up to {_mm(gap)} (the sole has "
-        f"no toes: near toe-off a person's still touch); the standing foot slides sideways by up to "
-        f"{_mm(slide)}."
-    )
-
-
-def _mm(metres: float) -> str:
-    return f"{round(1000 * metres, 1) + 0.0:.1f} mm"  # no minus before a zero

@@ -11,9 +11,11 @@ from exo_pin.kinematics.plate_contacts import plate_events, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.stance_slide import (
     LARGE_SLIDE,
+    SoleSlide,
     StanceSlide,
     largest_slide,
     slide_doubts,
+    sole_slide,
     stance_slides,
 )
 from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
@@ -26,6 +28,7 @@ __all__ = [
     "CurveOutlier",
     "EventDifference",
     "JointRates",
+    "SoleSlide",
     "StanceSlide",
     "WalkNumbers",
     "accelerations",
@@ -46,6 +49,7 @@ __all__ = [
     "plausibility",
     "poses",
     "slide_doubts",
+    "sole_slide",
     "spatiotemporal",
     "stance_slides",
     "velocities",

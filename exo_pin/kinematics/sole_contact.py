@@ -20,7 +20,7 @@ from exo_pin.gait.walking_bouts import walking_events
 from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
-_TOUCH_HEIGHT = 0.01
+TOUCH_HEIGHT = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
 
 
@@ -57,7 +57,7 @@ def contacts(
     *,
     base: npt.ArrayLike | None = None,
     ground: float = 0.0,
-    tolerance: float = _TOUCH_HEIGHT,
+    tolerance: float = TOUCH_HEIGHT,
 ) -> Contacts:
     """Which corner of which foot touches the ground, by geometry alone.
 

@@ -1,4 +1,4 @@
-"""Slide of a standing foot over the ground: how well the body's lengths go with the recorded motion."""
+"""Slide of a standing foot over the ground, of recorded feet and of feet as they are drawn."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.event import flat_times
 from exo_pin.gait.spatiotemporal import ground_velocity
-from exo_pin.kinematics.sole_contact import with_events
+from exo_pin.gait.time_series import runs
+from exo_pin.kinematics.sole_contact import TOUCH_HEIGHT, with_events
 from exo_pin.kinematics.walk_numbers import sole_points
 from exo_pin.robot import Robot
 
@@ -45,6 +46,18 @@ class StanceSlide(NamedTuple):
     distance: float
 
 
+class SoleSlide(NamedTuple):
+    """The largest path of a heel or a ball over the ground while it touches.
+
+    Attributes:
+        along: Fore and aft [m].
+        sideways: [m].
+    """
+
+    along: float
+    sideways: float
+
+
 def stance_slides(robot: Robot, gait: Gait) -> tuple[StanceSlide, ...]:
     """The slide of each foot in each whole stance, left foot first.
 
@@ -62,7 +75,7 @@ def stance_slides(robot: Robot, gait: Gait) -> tuple[StanceSlide, ...]:
         return ()
     points = sole_points(robot, gait)
     ground = ground_velocity(gait.time, points[:, :, 0], gait.events, gait.base[:, :2, 3])
-    soles = points.mean(axis=2)[..., :2] - (gait.time[:, None] * ground)[:, None]
+    soles = _over_ground(gait.time, points.mean(axis=2), ground)
     return tuple(slide for k, side in enumerate(SIDES) for slide in _slides(gait, side, soles[:, k]))
 
 
@@ -89,6 +102,36 @@ def slide_doubts(robot: Robot, gait: Gait) -> tuple[str, ...]:
         f"the {found.side} foot slides {1e3 * found.distance:.0f} mm while it stands, {when}, more than "
         f"{1e3 * LARGE_SLIDE:.0f}: is the body the person's (--stature, --body, --model)?",
     )
+
+
+def sole_slide(time: Array, points: Array, standing: Mask, ground: Array) -> SoleSlide:
+    """The largest path of a heel or a ball over the ground, within one contact of a standing foot.
+
+    Of a foot that stands, what is at most `TOUCH_HEIGHT` above its lower end is taken to touch, so that a
+    standing foot that hovers is measured as well.
+
+    Args:
+        time: `(n,)` [s].
+        points: `(n, 2, 2, 3)` left and right foot: heel and ball, x forward, z up [m].
+        standing: `(n, 2)` which foot is to be measured.
+        ground: `(2,)` velocity of the ground, x and y [m/s].
+    """
+    heights = points[..., 2]
+    touching = standing[..., None] & (heights <= heights.min(axis=2, keepdims=True) + TOUCH_HEIGHT)
+    places = _over_ground(time, points, ground)
+    paths = [
+        np.ptp(places[start:end, foot, end_of_foot], axis=0)
+        for foot, end_of_foot in np.ndindex(touching.shape[1:])
+        for start, end in runs(touching[:, foot, end_of_foot])
+    ]
+    along, sideways = np.max(paths, axis=0, initial=0.0) if paths else (0.0, 0.0)
+    return SoleSlide(float(along), float(sideways))
+
+
+def _over_ground(time: Array, points: Array, ground: Array) -> Array:
+    """Places `(n, ..., 2)` of points `(n, ..., 3)` seen from the ground [m]."""
+    way = (time[:, None] * ground).reshape(len(time), *[1] * (points.ndim - 2), 2)
+    return np.asarray(points[..., :2] - way)
 
 
 def _slides(gait: Gait, side: Side, sole: Array) -> Iterator[StanceSlide]:

@@ -1,18 +1,24 @@
 """One answer to a walk for every command: three grades, the smallest concession, the same numbers."""
 
+import base64
 import dataclasses
+import gzip
 import json
+import re
+import struct
+from html import unescape
 
 import numpy as np
 import pytest
 
 from exo_pin.anatomy import FEET, JOINTS
 from exo_pin.cli import main
-from exo_pin.compare import Conditions, compare
+from exo_pin.compare import Conditions, compare, dressed
 from exo_pin.devices import DEVICES
 from exo_pin.feasible import device_walk, feasible, pelvis_by_default
 from exo_pin.formats import load_gait
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.ground import place_walk
 from exo_pin.kinematics import poses, spatiotemporal
 from exo_pin.robot import load_robot
 
@@ -49,6 +55,7 @@ def test_feasible_and_check_give_one_verdict_with_the_same_numbers(walk, device,
         "pelvis",
         "sole_rms_mm",
         "sole_max_mm",
+        "belt_m_s",
         "ok",
     ):
         assert first[key] == second[key], key
@@ -60,18 +67,84 @@ def test_a_walk_that_every_limit_allows_fits():
     assert found.loss.rms == compare(normative_gait(), ["h2"]).best[0].rms
 
 
+@pytest.mark.parametrize(("walk", "device"), [("free", "lokomat"), ("slow", "h2")])
+def test_replay_and_report_show_that_verdict_with_the_same_numbers(walk, device, capsys, tmp_path):
+    _, facts = _json(capsys, "feasible", walk, "--device", device)
+    lost = f"by {facts['sole_rms_mm']:.1f} mm rms, {facts['sole_max_mm']:.1f} mm at most"
+    grade = {"fits": "fits: ", "concession": "fits with a concession: ", "no": "does not fit: "}
+    verdict = grade[facts["verdict"]] + facts["reason"]
+    page, report = tmp_path / "walk.html", tmp_path / "report.html"
+    for words in (["replay", walk, "--html", str(page)], ["report", walk, "--no-player", "-o", str(report)]):
+        code, said = _told(capsys, *words, "--device", device)
+        assert code == 0
+        assert lost in said
+        assert verdict in said
+    shown = _page_facts(page)
+    notes = " ".join(shown["notes"])
+    assert lost in notes
+    assert verdict in notes
+    text = unescape(report.read_text(encoding="utf-8"))
+    assert lost in text
+    assert verdict in text
+    assert f">{facts['sole_rms_mm']:.1f} mm<" in text, "the tile"
+    if facts["belt_m_s"] is not None:
+        assert shown["marks"]["belt"]["speed"] == pytest.approx(facts["belt_m_s"], abs=1e-6)
+    assert not any(note.startswith("Warning: the belt") for note in shown["notes"])
+
+
+def _page_facts(page):
+    """The facts of an offline page: the first chunk of the bundle, the only gzip that starts with JSON."""
+    for word in re.findall(r"H4sI[A-Za-z0-9+/=]+", page.read_text(encoding="utf-8")):
+        data = gzip.decompress(base64.b64decode(word))
+        (size,) = struct.unpack_from("<I", data)
+        if data[4:5] == b"{":
+            return json.loads(data[4 : 4 + size])
+    raise AssertionError("no bundle in the page")
+
+
 def test_a_belt_that_is_too_slow_costs_cadence_and_the_slower_walk_fits(capsys, tmp_path):
     found = device_walk(normative_gait(), "lokomat")
-    speed = float(spatiotemporal(load_robot(), normative_gait())["speed"].mean)
-    assert found.concession.what == "cadence"
-    assert found.concession.unit == "times"
-    assert found.concession.how_much == np.floor(100 * 3.2 / 3.6 / speed) / 100
-    assert found.gait.duration == pytest.approx(normative_gait().duration / found.concession.how_much)
+    factor = found.concession.how_much
+    assert (found.concession.what, found.concession.unit) == ("cadence", "times")
+    assert found.gait.duration == pytest.approx(normative_gait().duration / factor)
     assert device_walk(found.gait, "lokomat").verdict == "fits"
     out = tmp_path / "fit.csv"
     assert main(["edit", "free", str(out), "--fit", "lokomat"]) == 0
-    assert "cadence 0.72" in capsys.readouterr().err
+    assert f"cadence {factor:.2f}" in capsys.readouterr().err
     assert load_gait(out).duration == pytest.approx(found.gait.duration, rel=1e-6)
+
+
+def _shown_belt(gait):
+    """The belt under the device's motion as the player places it: of the full robot, by its own poses."""
+    motion = compare(gait, ["lokomat"], conditions=Conditions("device")).best[0].motion
+    return place_walk(dressed(motion.robot), motion.gait, "still").support.belt_speed
+
+
+def test_the_slower_walk_is_the_fastest_whose_shown_belt_the_treadmill_can_run():
+    given, fastest = normative_gait(), 3.2 / 3.6
+    found = device_walk(given, "lokomat")
+    speed = float(spatiotemporal(load_robot(), given)["speed"].mean)
+    factor = found.concession.how_much
+    assert factor < np.floor(100 * fastest / speed) / 100, "the person's speed alone would allow more"
+    assert found.belt == pytest.approx(_shown_belt(found.gait), abs=1e-9)
+    assert found.belt <= fastest < _shown_belt(given.slowed(1 / (factor + 0.01)))
+    assert found.belt_warning == ""
+
+
+def test_a_walk_whose_person_is_slow_enough_is_slowed_where_the_devices_own_steps_are_too_long():
+    given, fastest = normative_gait("slow").slowed(1 / 1.05), 3.2 / 3.6
+    assert spatiotemporal(load_robot(), given)["speed"].mean < fastest < _shown_belt(given)
+    assert all(fit.ok for fit in feasible(given, "lokomat").fits)
+    found = device_walk(given, "lokomat")
+    assert (found.verdict, found.concession.what) == ("concession", "cadence")
+    assert "the device's own motion takes the belt to" in found.reason
+    assert found.belt <= fastest
+
+
+def test_a_walk_that_cannot_be_slowed_enough_has_a_warning():
+    found = device_walk(normative_gait("very_fast"), "lokomat")
+    assert found.verdict == "no"
+    assert f"the belt runs at {found.belt:.2f} m/s here" in found.belt_warning
 
 
 def test_too_much_of_a_change_is_no_concession(capsys, tmp_path):

@@ -10,8 +10,11 @@ from exo_pin.anatomy import SIDES
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, Gait, normative_gait
+from exo_pin.gait.heading import turned
+from exo_pin.gait.time_series import runs
 from exo_pin.ground import DEEPEST_SINK, lowest_corners, place_walk
 from exo_pin.ground import standing as standing_between
+from exo_pin.ground.misfit import misfit
 from exo_pin.retarget import retarget
 
 TOUCH = 2e-3  # [m]: a standing sole this close to the ground touches it
@@ -19,7 +22,7 @@ SMOOTH = 15.0  # [m/s^2]: the pelvis of fast walkers reaches half of this; a jer
 STEADY = 0.06  # [m]: how far the pelvis may surge; people's pelvis surges 2-4 cm
 
 SWAY = 0.09  # [m]: people's pelvis sways 4 to 7 cm, the more the slower they walk
-SLIDE = 2e-3  # [m]: sideways, of the corner that bears the weight, in one single support
+SLIDE = 0.02  # [m]: sideways, of heel and ball in one single support; without the sway it is 26 to 28 mm
 
 
 def standing(shown, side):
@@ -100,15 +103,55 @@ def test_what_remains_is_measured_on_the_shown_feet_and_said(robot):
     low = lowest_corners(shown.corners)
     assert shown.support.gap == pytest.approx(np.maximum(low["left"], low["right"])[both].max())
     assert shown.support.sink == pytest.approx(-shown.corners[..., 2].min())
-    for number in (shown.support.gap, shown.support.sink, shown.support.slide, shown.support.hover):
-        assert f"{1000 * number:.1f} mm" in shown.support.note
+    for name in ("gap", "sink", "hover", "slide", "slide_along"):
+        assert f"{1000 * getattr(shown.support, name):.1f} mm" in shown.support.note
+
+
+def test_the_slide_is_the_longest_way_of_heel_or_ball_over_the_belt(robot):
+    """The left foot's, point by point from the drawn corners; the free walk is the same on both sides."""
+    shown = place_walk(robot, normative_gait())
+    alone = standing(shown, "left") & ~standing(shown, "right")
+    ends = shown.corners[:, :4].reshape(-1, 2, 2, 3).mean(axis=2)  # heel, ball
+    lowest = ends[..., 2].min(axis=1)
+    ways = []
+    for k in range(2):
+        bears = alone & (ends[:, k, 2] < lowest + 0.01)
+        assert len(runs(bears)) == 1
+        places = ends[bears, k, :2]
+        places[:, 0] += shown.support.belt_speed * shown.time[bears]
+        ways.append(np.ptp(places, axis=0))
+    along, sideways = np.max(ways, axis=0)
+    assert shown.support.slide_along == pytest.approx(
+        along, abs=1e-4
+    )  # the sides differ by rounding of events
+    assert shown.support.slide == pytest.approx(sideways, abs=1e-4)
+    assert 0.01 < sideways < 0.02 < along < 0.05
+
+
+def test_a_wrong_speed_of_the_belt_shows_as_a_slide_along(robot):
+    shown = place_walk(robot, normative_gait())
+    stance, speed = shown.stance, shown.support.belt_speed
+    slides = [misfit(normative_gait(), shown.corners, stance, speed + d).slide_along for d in (0.0, -0.3)]
+    assert slides[1] > slides[0] + 0.03
+
+
+@pytest.mark.parametrize("angle", [0.0, 90.0, 200.0])
+def test_sideways_is_across_the_way_of_a_walk_through_the_room(robot, angle):
+    gait = normative_gait()
+    base = gait.base.copy()
+    base[:, 0, 3] += 1.2 * gait.time
+    ways = [Gait(gait.time, gait.q, base=base, events=gait.events)]
+    ways.append(turned(ways[0], np.radians(angle)))
+    one, other = (place_walk(robot, way).support for way in ways)
+    assert (other.slide, other.slide_along) == pytest.approx((one.slide, one.slide_along), abs=1e-6)
+    assert "slides over the ground" in other.note
 
 
 def test_a_longer_walk_is_carried_as_its_cycle_is(robot):
     gait = normative_gait()
     once, often = place_walk(robot, gait), place_walk(robot, gait.repeated(20))
     assert often.base == pytest.approx(np.tile(once.base, (20, 1, 1)), abs=1e-9)
-    for number in ("belt_speed", "sink", "hover", "gap", "slide"):
+    for number in ("belt_speed", "sink", "hover", "gap", "slide", "slide_along"):
         assert getattr(often.support, number) == pytest.approx(getattr(once.support, number), abs=1e-9)
 
 

@@ -15,6 +15,7 @@ from exo_pin import cli, crosscheck, report
 from exo_pin.anatomy import JOINTS
 from exo_pin.demand import ACCELERATION_LIMIT, range_demands
 from exo_pin.errors import DescriptionError
+from exo_pin.feasible import device_walk
 from exo_pin.gait import Gait, Torques, normative_gait, normative_sd
 from exo_pin.gait.heading import turned
 from exo_pin.kinematics import (
@@ -243,6 +244,43 @@ def test_a_device_with_locked_joints_and_slides_has_a_report():
     robot = load_robot(device="lopes8")
     document = report.walk(robot, normative_gait())
     assert set(table(document, "Ranges and limit margins")) == set(robot.joints) & set(JOINTS)
+
+
+def test_the_devices_motion_is_drawn_solid_and_the_persons_dashed(monkeypatch, tmp_path):
+    """On one axis the dashed curve is above the solid one by what the angles are, at every percent."""
+    made = []
+
+    def kept(document):
+        made.append(document)
+        return ""
+
+    monkeypatch.setattr(report, "html", kept)
+    words = ["report", "slow", "--device", "lokomat", "--normal", "none", "--no-player"]
+    assert cli.main([*words, "-o", str(tmp_path / "page.html")]) == 0
+    answer = device_walk(normative_gait("slow"), "lokomat")
+    device, person = answer.loss.motion.gait, normative_gait("slow")
+    drawings = section(made[0], "Joint angles over the gait cycle").blocks[0].drawings
+    for movement in ("hip_flexion", "knee_flexion"):
+        column = JOINTS.index(f"left_{movement}")
+        dashed, solid = _drawn(next(d.svg for d in drawings if d.name == f"curve_{movement}"))
+        assert len(dashed) == len(solid) == 2, "both legs of each"
+        angles = [np.degrees(walk.q[:, column]) for walk in (device, person)]
+        apart = angles[1] - angles[0]
+        assert np.abs(apart).max() > 1.0, "else the curves do not tell whose they are"
+        heights = [-curves[0][: len(apart), 1] for curves in (solid, dashed)]  # y is down; left leg first
+        scale = np.ptp(heights[1]) / np.ptp(angles[1])  # [px/deg]
+        np.testing.assert_allclose(heights[1] - heights[0], scale * apart, atol=DRAWN)
+
+
+def _drawn(drawing):
+    """The dashed and the solid curves of a chart, `(n, 2)` [px], without axes, limits and legend."""
+    dashed, solid = [], []
+    for path in elements(drawing, "path"):
+        numbers = np.array(re.findall(r"-?\d+\.?\d*", path.get("d")), dtype=float)
+        if len(numbers) > 100 and path.get("fill") == "none":
+            kind = solid if path.get("stroke-dasharray") is None else dashed
+            kind.append(numbers.reshape(-1, 2))
+    return dashed, solid
 
 
 def test_a_robot_without_a_body_is_refused(robot, gait):

@@ -87,7 +87,7 @@ def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
     ]
     show.table("Joint ranges", ["joint", "min deg", "max deg", "outside limits"], limit_rows)
     print(f"cross-checks: {'all agree' if verdict.consistent else _why(verdict)}")
-    print(f"{found.loss_sentence}\nverdict: {found.sentence}")
+    device_options.print_answer(found, "verdict: ")
 
 
 def _mark(ok: bool) -> str:

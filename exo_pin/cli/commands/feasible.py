@@ -83,7 +83,7 @@ def _print(found: DeviceWalk, name: str) -> None:
         print(f"note: {sentence}")
     for failure in verdict.failures:
         print(f"NOT OK {verdict.words(failure)}")
-    print(f"{found.loss_sentence}\nverdict: {found.sentence}")
+    device_options.print_answer(found, "verdict: ")
 
 
 _LEAST_DROPPED = 0.05

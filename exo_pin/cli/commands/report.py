@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
     shown = answer.gait if args.torques is None else gait
     if device.locked:
         shown = answer.loss.motion.gait
-    print(f"{answer.loss_sentence}\n{answer.sentence}")
+    device_options.print_answer(answer)
     name = Path(args.gait).name
     info = report.ReportInfo(
         title=args.title or f"Gait report: {name}",
@@ -108,7 +108,7 @@ def run(args: argparse.Namespace) -> int:
             still=still,
             normal=None if args.normal == "none" else args.normal,
             cutoff=args.filter or None,
-            torques=given,
+            torques=torque_options.of_shown(given, gait, shown),
             plausibility=options.plausibility(args, person, gait),
             feet=trials.feet(args, person, gait),
             answer=answer,

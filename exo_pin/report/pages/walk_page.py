@@ -103,14 +103,14 @@ def walk(
 
 def _answered(answer: DeviceWalk) -> Section:
     """The verdict on device and walk with its reason, and what the soles lose."""
-    words = {"fits": "fits", "concession": "fits with a concession", "no": "does not fit"}
+    grades = {"fits": "fits", "concession": "fits with a concession", "no": "does not fit"}
     tiles = (
-        (f"{answer.title} and this walk", words[answer.verdict], answer.ok),
+        (f"{answer.title} and this walk", grades[answer.verdict], answer.ok),
         ("soles miss the walk's, rms", f"{1e3 * answer.loss.rms:.1f} mm", None),
         ("motors", str(answer.device.motors), None),
     )
-    blocks = (Tiles(tiles), Paragraph(f"{answer.sentence}."), Paragraph(answer.loss_sentence))
-    return Section("Verdict", blocks)
+    words = filter(None, (f"{answer.sentence}.", answer.loss_sentence, answer.belt_warning))
+    return Section("Verdict", (Tiles(tiles), *(Paragraph(sentence) for sentence in words)))
 
 
 def _ahead(gait: Gait) -> tuple[Gait, str]:

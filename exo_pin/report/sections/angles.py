@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, SIDES, joint
-from exo_pin.anatomy.names import Movement, Speed
+from exo_pin.anatomy.names import Movement, Side, Speed
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, LegCycle, leg_cycles, normative_gait, normative_sd
 from exo_pin.report.document.blocks import Figure, Paragraph, Section
@@ -21,6 +21,7 @@ NORMATIVE_BAND_SOURCE = (
     "Oxford foot model. Its hip flexion is measured against a pelvis tilted forward by 10 to 18 deg, so "
     "compare shapes and ranges, and levels with care; hip rotation and ankle inversion are weak channels."
 )
+_WIDTH = 1.7  # [px] of a curve
 _LEAST = 20.0  # [deg] smallest extent of an angle's axis
 
 
@@ -93,8 +94,8 @@ def _joint(
         if leg.sd is not None:
             sd = np.degrees(leg.sd[:, k])
             bands.append(Band(leg.percent, q - sd, q + sd, colour))
-        over = "6 6" if same and leg.side == "right" else None  # dashes show both of two equal curves
-        curves.append(Curve(leg.percent, q, colour, leg.side, over))
+        over, width = _shown_twice(leg.side, dashes=not person) if same else (None, _WIDTH)
+        curves.append(Curve(leg.percent, q, colour, leg.side, over, width))
         if np.isfinite(leg.stance):
             spans.append(Span(0, min(leg.stance, 100.0), colour, f"{leg.side} stance", SIDES.index(leg.side)))
     levels = [
@@ -111,6 +112,13 @@ def _joint(
         least=_LEAST,
     )
     return Drawing(f"curve_{movement}", walk_charts.MOVEMENT_TITLES[movement], draw(chart))
+
+
+def _shown_twice(side: Side, *, dashes: bool) -> tuple[str | None, float]:
+    """Dash and width that show both of two equal curves: without dashes the left one is wider, behind."""
+    if dashes:
+        return ("6 6" if side == "right" else None), _WIDTH
+    return None, (2.4 * _WIDTH if side == "left" else _WIDTH)
 
 
 def normal(speed: Speed, movement: int) -> tuple[Array, Array, Array]:
