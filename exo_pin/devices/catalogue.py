@@ -43,9 +43,10 @@ LOKOMAT = Device(
     pelvis=("pelvis_up",),
     actuators=_loose("pelvis_up"),
     treadmill=(0.5 / 3.6, 3.2 / 3.6),
-    source="Hip and knee driven by motors with ball screws, ankle passive; pelvis fixed but for the vertical "
-    "body-weight support, as PMC9768983, table 3, lists it. " + _CHOSEN,
+    source="PMC9768983, table 3: DC motors at hip and knee, ankle passive, pelvis fixed, body-weight support "
+    "with vertical and lateral movement of the centre of mass. Chen, Zhang and Zhu: ball screws. " + _CHOSEN,
     remarks=(
+        "Of the support's movements the record has the vertical one alone.",
         "The ankle is carried by foot lifters and moved by the treadmill; here it is held at zero unless "
         "released.",
         "Its treadmill runs at 0.5 to 3.2 km/h: no primary source of these two numbers was at hand; a device "
@@ -89,9 +90,14 @@ H2 = Device(
     pelvis="free",
     ranges={"hip_adduction": (math.radians(-20.0), math.radians(20.0))},
     statures=(1.45, 1.95),
+    masses=(0.0, 100.0),
     source="Bortole et al. 2015, JNER 12:54: six driven joints in the sagittal plane, passive movement of "
-    "about 20 degrees at the hip in the frontal plane, 12 kg, users of 1.45 to 1.95 m. " + _CHOSEN,
-    remarks=("Worn over ground: the pelvis goes with the person.",),
+    "about 20 degrees at the hip in the frontal plane, 12 kg. JNER 2021, s12984-021-00815-5, table 1: users "
+    "of 1.45 to 1.95 m and up to 100 kg. " + _CHOSEN,
+    remarks=(
+        "Worn over ground: the pelvis goes with the person.",
+        "Its driven joints have mechanical stops, whose angles were not at hand: the body's ranges hold.",
+    ),
 )
 
 HK4 = Device(
@@ -100,9 +106,13 @@ HK4 = Device(
     joints=both("hip_flexion", "knee_flexion"),
     passive=both("ankle_dorsiflexion"),
     pelvis="free",
+    statures=(1.55, 1.91),
+    masses=(0.0, 113.0),
     source="JNER 2021, s12984-021-00815-5, table 1: hips and knees driven; Ekso 23 kg, ReWalk 23.3 kg, "
-    "Indego 12 kg. " + _CHOSEN,
+    "Indego 12 kg. Users: Ekso 1.58 to 1.88 m, up to 100 kg; ReWalk 1.60 to 1.90 m, up to 100 kg; Indego "
+    "1.55 to 1.91 m, up to 113 kg. " + _CHOSEN,
     remarks=(
+        "The record's range of users is the widest of the three, Indego's.",
         "Worn over ground: the pelvis goes with the person. The ankle is sprung in Ekso; here it is held at "
         "zero unless released.",
     ),

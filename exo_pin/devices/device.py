@@ -51,6 +51,10 @@ class Device:
             what the device and the body both allow.
         treadmill: Slowest and fastest speed of its belt [m/s]; None: it has none, or no source tells.
         statures: Shortest and tallest person whom it fits [m]; None: no source tells.
+        masses: Lightest and heaviest person [kg], likewise; 0 where a source has the heaviest alone.
+        thighs: Shortest and longest thigh, hip centre to knee [m], likewise.
+        shanks: Shortest and longest shank, knee to ankle [m], likewise.
+        hip_widths: Least and largest distance of the hip centres [m], likewise.
         source: Where the joints and every number come from.
         remarks: Where sources differ, and what the record leaves out.
 
@@ -70,6 +74,10 @@ class Device:
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     treadmill: tuple[float, float] | None = None
     statures: tuple[float, float] | None = None
+    masses: tuple[float, float] | None = None
+    thighs: tuple[float, float] | None = None
+    shanks: tuple[float, float] | None = None
+    hip_widths: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -84,9 +92,7 @@ class Device:
         if not self.joints:
             raise DescriptionError(f"device {self.name} drives no joint")
         self._check_pelvis()
-        set_fields(
-            self, treadmill=_span("treadmill", self.treadmill), statures=_span("statures", self.statures)
-        )
+        set_fields(self, **{name: _span(name, getattr(self, name), most) for name, most in _SPANS.items()})
         complete = {movement: _actuator(movement, self.actuators) for movement in self._movements}
         set_fields(
             self,
@@ -221,12 +227,25 @@ def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
     return actuator
 
 
-def _span(what: str, pair: tuple[float, float] | None) -> tuple[float, float] | None:
+_SPANS = {
+    "treadmill": 10.0,
+    "statures": 10.0,
+    "masses": 500.0,
+    "thighs": 10.0,
+    "shanks": 10.0,
+    "hip_widths": 10.0,
+}
+"""Entries that are a range, and the largest value that is accepted [m/s, m, kg]."""
+
+
+def _span(what: str, pair: tuple[float, float] | None, most: float) -> tuple[float, float] | None:
     if pair is None:
         return None
     low, high = map(float, pair)
-    if not 0.0 <= low < high <= 10.0:
-        raise DescriptionError(f"{what} is {low:g} .. {high:g}; lower < upper, from 0 to 10, is accepted")
+    if not 0.0 <= low < high <= most:
+        raise DescriptionError(
+            f"{what} is {low:g} .. {high:g}; lower < upper, from 0 to {most:g}, is accepted"
+        )
     return low, high
 
 

@@ -1,4 +1,4 @@
-"""Fit of a device to person and walk: its range of statures, and the speeds of its treadmill."""
+"""Fit of a device to person and walk: statures, masses and sizes that it takes, speeds of its treadmill."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from exo_pin.anatomy import SIDES, Body
+from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.files import json_number
 from exo_pin.gait import Gait
@@ -15,22 +17,27 @@ from exo_pin.kinematics import spatiotemporal
 from exo_pin.robot import Robot, load_robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
 
+UNEVEN = 0.005
+"""Difference of the legs from hip to sole that is remarked on [m] (a choice)."""
+
 
 @dataclass(frozen=True)
 class Fit:
     """A property of walk or person against the interval that the device accepts.
 
     Attributes:
-        what: `"treadmill"` (walking speed [m/s]) or `"person"` (stature [m]).
+        what: `"treadmill"` (walking speed [m/s]) or `"person"` (a size [m] or the mass [kg]).
         required: The speed or stature; NaN where the walk has no cycles and so no speed.
         available: Smallest and largest accepted value.
         unit: Of all three.
+        of: Which size of the person, e.g. `"stature"`; empty for the treadmill.
     """
 
     what: Literal["treadmill", "person"]
     required: float
     available: tuple[float, float]
     unit: str
+    of: str = ""
 
     @property
     def ok(self) -> bool:
@@ -42,7 +49,9 @@ class Fit:
     def how(self) -> str:
         """Both in words."""
         low, high = self.available
-        return f"{self.required:.2f} {self.unit} required, {low:.2f} to {high:.2f} {self.unit} possible"
+        possible = f"{low:.2f} to {high:.2f}" if low > 0 else f"at most {high:.2f}"
+        name = f"{self.of} " if self.of else ""
+        return f"{name}{self.required:.2f} {self.unit} required, {possible} {self.unit} possible"
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -50,6 +59,7 @@ class Fit:
         required = json_number(self.required)
         return {
             "what": self.what,
+            "of": self.of or None,
             "asked": required,
             "low": low,
             "high": high,
@@ -63,9 +73,36 @@ def fits(robot: Robot, gait: Gait) -> tuple[Fit, ...]:
     device, body, found = robot.device, robot.body, []
     if device is not None and device.treadmill is not None:
         found.append(Fit("treadmill", _speed(load_robot(body), gait), device.treadmill, "m/s"))
-    if device is not None and device.statures is not None and body is not None:
-        found.append(Fit("person", body.stature, device.statures, "m"))
+    if device is not None and body is not None:
+        found += _person(device, body)
     return tuple(found)
+
+
+def _person(device: Device, body: Body) -> list[Fit]:
+    """Every size of the person for which the device's record has a range; equal legs once."""
+    sizes = [
+        ("stature", body.stature, device.statures, "m"),
+        ("mass", body.mass, device.masses, "kg"),
+        ("hip width", body.hip_width, device.hip_widths, "m"),
+    ]
+    for name, available in (("thigh", device.thighs), ("shank", device.shanks)):
+        legs = {f"{side} {name}": getattr(body.leg(side), name) for side in SIDES}
+        legs = legs if len(set(legs.values())) > 1 else {name: next(iter(legs.values()))}
+        sizes += [(what, value, available, "m") for what, value in legs.items()]
+    return [Fit("person", value, span, unit, what) for what, value, span, unit in sizes if span is not None]
+
+
+def leg_difference(body: Body | None) -> str | None:
+    """A remark where the legs differ in length by more than `UNEVEN`."""
+    if body is None:
+        return None
+    left, right = (leg.length for leg in body.legs)
+    if abs(left - right) < UNEVEN:
+        return None
+    return (
+        f"the wearer's legs differ by {1e3 * abs(left - right):.0f} mm from hip to sole (left {left:.3f} m, "
+        f"right {right:.3f} m): thigh and shank of the device are set on each side apart"
+    )
 
 
 def within_belt_speed(fit: Fit, robot: Robot) -> Callable[[Gait], bool]:

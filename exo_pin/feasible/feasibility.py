@@ -13,7 +13,7 @@ from exo_pin.arrays import Mask
 from exo_pin.demand import JointDemand
 from exo_pin.devices import SLIDES
 from exo_pin.feasible.collision import Nearest
-from exo_pin.feasible.device_fit import Fit
+from exo_pin.feasible.device_fit import Fit, leg_difference
 from exo_pin.gait import Gait
 from exo_pin.gait.phases import PHASES, percent
 from exo_pin.gait.time_series import runs
@@ -158,7 +158,9 @@ class Feasibility:
         known = any(demand.torque is not None for demand in self.joints)
         torques = "torques as given" if known else "torques are not checked"
         assumed = f"the joints copy the walk, locked and passive ones at zero; {torques}"
-        return (assumed, *(() if self.robot.device is None else self.robot.device.remarks))
+        uneven = leg_difference(self.robot.body)
+        remarks = () if self.robot.device is None else self.robot.device.remarks
+        return (assumed, *(() if uneven is None else (uneven,)), *remarks)
 
     def facts(self) -> dict[str, Any]:
         """The verdict as plain values for JSON."""

@@ -237,3 +237,46 @@ def test_the_words_of_both_commands_hold_verdict_reason_and_loss(capsys):
         assert code == 0
         assert found.sentence in said
         assert found.loss_sentence in said
+
+
+@pytest.mark.parametrize(
+    ("device", "person", "word"),
+    [
+        ("h2", {"mass": 110.0}, "mass 110.00 kg"),
+        ("hk4", {"mass": 120.0}, "mass 120.00 kg"),
+        ("hk4", {"stature": 1.95}, "stature 1.95 m"),
+        ("h2", {"stature": 1.40}, "stature 1.40 m"),
+    ],
+)
+def test_a_person_beyond_a_source_s_range_does_not_fit_and_the_size_is_named(device, person, word):
+    from exo_pin.anatomy import Body
+
+    found = device_walk(normative_gait(), device, Body.from_stature(**person))
+    assert found.verdict == "no"
+    assert word in found.reason
+    inside = device_walk(normative_gait(), device, Body.from_stature(mass=99.0))
+    assert not [fit for fit in inside.as_recorded.fits if not fit.ok]
+
+
+def test_every_size_with_a_range_is_judged_and_uneven_legs_side_by_side():
+    from exo_pin.anatomy import Body
+    from exo_pin.devices import Device, both
+    from exo_pin.feasible.device_fit import fits
+    from exo_pin.robot import load_robot
+
+    narrow = Device(
+        name="narrow", joints=both("knee_flexion"), source="made up", thighs=(0.40, 0.43), shanks=(0.5, 0.6),
+        hip_widths=(0.1, 0.15), masses=(50.0, 60.0),
+    )  # fmt: skip
+    robot = load_robot(Body.from_stature(left_thigh=0.38), device=narrow)
+    bad = {fit.of for fit in fits(robot, normative_gait()) if not fit.ok}
+    assert bad == {"left thigh", "shank", "hip width", "mass"}
+
+
+@pytest.mark.parametrize(("shorter", "remarked"), [(0.0, False), (0.003, False), (0.012, True)])
+def test_a_leg_difference_is_remarked_on(shorter, remarked):
+    from exo_pin.anatomy import Body
+
+    body = Body.from_stature(right_shank=Body.from_stature().right_shank - shorter)
+    words = " ".join(device_walk(normative_gait(), "exo12", body).as_recorded.conditions)
+    assert ("legs differ by 12 mm" in words) is remarked

@@ -48,6 +48,10 @@ def _to_json(device: Device) -> dict[str, Any]:
         "actuators": {name: _limits(actuator) for name, actuator in device.actuators.items()},
         "treadmill_m_s": device.treadmill,
         "statures_m": device.statures,
+        "masses_kg": device.masses,
+        "thighs_m": device.thighs,
+        "shanks_m": device.shanks,
+        "hip_widths_m": device.hip_widths,
         "ranges": {m: list(pair) for m, pair in device.ranges.items() if m in device.actuators},
         "source": device.source,
         "remarks": device.remarks,
@@ -94,6 +98,10 @@ def _print_one(device: Device) -> None:
         "toes": "driven" if device.toes else "-",
         "treadmill": _span(device.treadmill, 3.6, "km/h"),
         "statures": _span(device.statures, 1.0, "m"),
+        "masses": _span(device.masses, 1.0, "kg"),
+        "thighs": _span(device.thighs, 1.0, "m"),
+        "shanks": _span(device.shanks, 1.0, "m"),
+        "hip widths": _span(device.hip_widths, 1.0, "m"),
     }
     show.table(f"{device.name}: {device.title or device.name}", ["", ""], [list(x) for x in lines.items()])
     rows = [_row(device, joint) for joint in dict.fromkeys(map(movement_of, (*device.joints, *device.added)))]
