@@ -82,7 +82,10 @@ def load_urdf(
     if path is None and text is not source:
         path = source
     text, remarks = _accepted(text, path)
-    model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
+    try:
+        model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
+    except DescriptionError as error:
+        raise DescriptionError(f"{path or 'URDF'}: {error}") from None
     names = tuple(model.names)[2 if base == "floating" else 1 :]
     for name in names:
         if model.joints[model.getJointId(name)].nq != 1:

@@ -31,3 +31,25 @@ def test_a_force_that_is_no_number_is_refused_with_its_line(tmp_path):
     with pytest.raises(FormatError, match="ground_force_vx is nan") as caught:
         load_forces(path)
     assert caught.value.line == 7
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "said"),
+    [(2, 1e308, "more than 100000 N"), (4, 7.5e9, "more than 10000 m"), (9, -1e300, "more than 100000 N m")],
+)
+def test_impossible_forces_points_and_moments_under_a_foot_are_refused(tmp_path, column, value, said):
+    row = [0.1, 0, 700, 0, 1, 0, 2, 0, 3, 0]
+    row[column] = value
+    path = written(tmp_path / "grf.mot", [[0, *[0] * 9], row])
+    with pytest.raises(FormatError, match=said) as caught:
+        load_forces(path)
+    assert caught.value.line == 7
+
+
+def test_an_impossible_point_of_nobody_is_zero(tmp_path):
+    """A centre of pressure divided by no force can be anything."""
+    path = written(
+        tmp_path / "grf.mot", [[0, 0, 1, 0, 1e308, 0, 0, 0, 0, 0], [0.1, 0, 700, 0, 1, 0, 2, 0, 3, 0]]
+    )
+    (plate,) = load_forces(path)
+    assert not plate.point[0].any()

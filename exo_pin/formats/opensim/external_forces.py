@@ -13,6 +13,7 @@ from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
+from exo_pin.gait.validation import FURTHEST
 
 _FORCE_COLUMN = re.compile(
     r"(?P<head>.*?)(?P<kind>force|torque|moment)(?P<tail>.*?)_?(?P<what>[vpm]?)(?P<axis>[xyz])$"
@@ -54,8 +55,15 @@ def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:
     return {key: columns for key, columns in groups.items() if {"vx", "vy", "vz"} <= set(columns)}
 
 
+_LOADED = 20.0
+"""Force that shows a foot on the plate [N]; with less, its point is noise divided by noise."""
+
+_MOST = {"v": (LARGEST_FORCE, "N"), "p": (FURTHEST, "m"), "m": (LARGEST_FORCE, "N m")}
+"""What is read at most, with its unit."""
+
+
 def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str]) -> ForcePlate:
-    parts = []
+    parts, loaded = [], np.zeros((len(time), 1), dtype=bool)
     for what in "vpm":
         absent = [what + axis for axis in "xyz" if what + axis not in columns]
         if absent:
@@ -64,6 +72,9 @@ def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str])
         values = table.columns(names)
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
-            table.refuse(np.abs(values) > LARGEST_FORCE, names, f"more than {LARGEST_FORCE:g} N")
-        parts.append(np.nan_to_num(values) @ FROM_OPENSIM.T)
+            loaded = np.linalg.norm(values, axis=1, keepdims=True) > _LOADED
+        most, unit = _MOST[what]
+        large = np.abs(values) > most
+        table.refuse(large & (loaded | (what == "v")), names, f"more than {most:g} {unit}")
+        parts.append(np.where(large, 0.0, np.nan_to_num(values)) @ FROM_OPENSIM.T)
     return ForcePlate(f"force plate {name}".strip(), time, *parts)

@@ -10,6 +10,7 @@ from math import degrees
 import numpy as np
 
 from exo_pin.arrays import Array
+from exo_pin.errors import shortened
 from exo_pin.ground import PlacedWalk, aligned, alignment_note, place, transformed
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Biped, Retargeted, retarget
@@ -166,7 +167,7 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
     ]
     if tree.skipped:
         name, why = next(iter(meshes.missing.items()), ("a visual", "of no known kind"))
-        notes.append(f"{tree.skipped} visuals of the URDF are not drawn ({name}: {why}).")
+        notes.append(f"{tree.skipped} visuals of the URDF are not drawn ({shortened(name, 60)}: {why}).")
     return [note for note in notes if note]
 
 
