@@ -72,7 +72,7 @@ def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str])
         values = table.columns(names)
         if what == "v":
             table.refuse(np.isnan(values), names, "expected a finite number")
-            loaded = np.linalg.norm(values, axis=1, keepdims=True) > _LOADED
+            loaded = np.abs(values).max(axis=1, keepdims=True) > _LOADED
         most, unit = _MOST[what]
         large = np.abs(values) > most
         table.refuse(large & (loaded | (what == "v")), names, f"more than {most:g} {unit}")
