@@ -51,7 +51,8 @@ class Fit:
         low, high = self.available
         possible = f"{low:.2f} to {high:.2f}" if low > 0 else f"at most {high:.2f}"
         name = f"{self.of} " if self.of else ""
-        return f"{name}{self.required:.2f} {self.unit} required, {possible} {self.unit} possible"
+        required = f"{self.required:.2f} {self.unit} required" if np.isfinite(self.required) else "not known"
+        return f"{name}{required}, {possible} {self.unit} possible"
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON."""

@@ -71,9 +71,7 @@ def _print(found: DeviceWalk, name: str) -> None:
     pair = " and ".join(verdict.closest_parts)
     print(f"nearest parts: {show.fixed(1e3 * verdict.clearance)} mm between {pair}")
     for fit in verdict.fits:
-        required = "not known" if math.isnan(fit.required) else f"{fit.required:.2f} {fit.unit}"
-        low, high = fit.available
-        print(f"{fit.what}: {required}, {low:.2f} to {high:.2f} {fit.unit} possible")
+        print(f"{fit.what}: {fit.how}")
     print(f"reach to spare between hip and ankle: {spare}")
     dropped = _dropped(verdict)
     if dropped:
