@@ -55,6 +55,8 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
         return walk
     robot = load_robot(body)
     args.event_differences = event_differences(robot, walk, plates)
+    found = dict.fromkeys(remark for plate in plates for remark in plate.remarks)
+    walk = _remarked(walk, f"{path.name}: ", "; ".join(found))
     known = _remarked(walk, "against the force plates: ", "; ".join(map(str, args.event_differences)))
     if walk.events and not args.forces:
         return known

@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from exo_pin.cli import show
+
 if TYPE_CHECKING:
     from exo_pin.gait import Gait, Torques
 
@@ -26,11 +28,20 @@ def add(parser: argparse.ArgumentParser) -> None:
 def given(args: argparse.Namespace) -> Torques | None:
     """The torques that the arguments name; OpenSim's have the signs of `--preset` or of the walk's file.
 
+    What reading the file corrected is printed as a note.
+
     Raises:
         FormatError: The file cannot be read, or nothing tells the sign of its knee.
     """
     if args.torques is None:
         return None
+    torques = _loaded(args)
+    for remark in torques.remarks:
+        print(f"note: {show.plain(f'{Path(args.torques).name}: {remark}')}", file=sys.stderr)
+    return torques
+
+
+def _loaded(args: argparse.Namespace) -> Torques:
     from exo_pin.formats import knee_preset, load_torques
 
     files, kind = args.files, Path(args.torques).suffix.lower()

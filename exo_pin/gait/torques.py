@@ -29,6 +29,7 @@ class Torques:
         time: `(n,)` strictly increasing [s], on the clock of the walk that they belong to.
         tau: `(n, 12)` [N m]; NaN where the torque of a joint is not known.
         source: Where the numbers come from, in words.
+        remarks: What reading the file corrected or left out, a plain sentence each.
 
     Raises:
         GaitError: If shapes, time or torques are unusable; the message says which and where.
@@ -37,6 +38,7 @@ class Torques:
     time: Array
     tau: Array
     source: str = field(default="", kw_only=True)
+    remarks: tuple[str, ...] = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         set_fields(self, time=frozen(self.time, "time"), tau=frozen(self.tau, "tau"), source=str(self.source))

@@ -34,6 +34,7 @@ class ForcePlate:
         force: `(m, 3)` ground reaction force on the foot [N].
         point: `(m, 3)` where it acts [m]; meaningless while nothing stands on the plate.
         moment: `(m, 3)` free moment [N m] at that point.
+        remarks: What reading the file corrected or left out, a plain sentence each.
     """
 
     name: str
@@ -41,6 +42,7 @@ class ForcePlate:
     force: Array
     point: Array
     moment: Array
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         vectors = {"force": self.force, "point": self.point, "moment": self.moment}

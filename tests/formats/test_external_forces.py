@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.errors import FormatError
-from exo_pin.formats import load_forces
+from exo_pin.formats import load_forces, load_torques
 
 NAMES = [f"ground_force_{w}{a}" for w in "vp" for a in "xyz"] + [f"ground_torque_{a}" for a in "xyz"]
 
@@ -53,3 +53,22 @@ def test_an_impossible_point_of_nobody_is_zero(tmp_path):
     )
     (plate,) = load_forces(path)
     assert not plate.point[0].any()
+
+
+def test_what_reading_forces_and_torques_corrected_is_said(tmp_path):
+    still = [0] * 9
+    path = written(tmp_path / "grf.mot", [[0, *still], [0.1, *still], [0.1, *still], [0.2, *still]])
+    path.write_text(path.read_text().replace("nRows=4", "nRows=900"))
+    (plate,) = load_forces(path)
+    assert len(plate.time) == 3
+    assert any("900" in remark for remark in plate.remarks)
+    assert any("repeat" in remark and "1" in remark for remark in plate.remarks)
+
+
+def test_a_repeated_row_of_inverse_dynamics_is_said(tmp_path):
+    path = tmp_path / "id.sto"
+    rows = "0\t1\n0.1\t2\n0.1\t2\n0.2\t3\n"
+    path.write_text(f"id\nnRows=4\nnColumns=2\nendheader\ntime\thip_flexion_r_moment\n{rows}")
+    torques = load_torques(path)
+    assert len(torques.time) == 3
+    assert any("repeat" in remark for remark in torques.remarks)

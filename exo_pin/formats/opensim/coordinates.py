@@ -117,8 +117,7 @@ def _coordinates(storage: Storage, convention: Convention, options: ReadOptions)
     check_complete(table, given, wanted)
     present = [name for name in wanted if name in table.names]
     table, doubled = table.once_each_time(TIME_COLUMN, present)
-    if doubled:
-        remarks.append(f"rows that repeat time and values of the row above: {doubled}, left out")
+    remarks += doubled
     time = table.times(TIME_COLUMN)
     values = _present(table, present, convention, degrees)
     has_pelvis = bool(set(convention.pelvis) & {*present, *given})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -37,9 +38,10 @@ def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
         raise FormatError(path, "no ground reaction forces; expected columns like ground_force_vx")
     used = list(dict.fromkeys(name for columns in groups.values() for name in columns.values()))
     table.refuse_repeated(["time", *used])
-    table, _ = table.once_each_time("time", used)
-    time = table.times("time")
-    return tuple(_plate(table, time, name, columns) for name, columns in groups.items())
+    table, doubled = table.once_each_time("time", used)
+    time, remarks = table.times("time"), (*storage.remarks, *doubled)
+    plates = (_plate(table, time, name, columns) for name, columns in groups.items())
+    return tuple(replace(plate, remarks=remarks) for plate in plates)
 
 
 def _groups(names: Iterable[str]) -> dict[str, dict[str, str]]:

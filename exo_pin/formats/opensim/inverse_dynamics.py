@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
@@ -44,10 +46,11 @@ def inverse_dynamics(storage: Storage, name: SignPreset | None) -> Torques:
     used = list(present.values())
     table.refuse_repeated(["time", *used])
     table.refuse(~np.isfinite(table.columns(used)), used, "expected a finite number")
-    table, _ = table.once_each_time("time", used)
+    table, doubled = table.once_each_time("time", used)
     tau = torque_columns(table, present)
     tau[:, [JOINTS.index(joint) for joint in knees]] *= (
         1 if name is None else find_preset(name, OPENSIM_PRESETS).knee
     )
     model = "" if name is None else f" of {name}"
-    return to_torques(path, table.times("time"), tau, f"{path.name}, OpenSim inverse dynamics{model}")
+    torques = to_torques(path, table.times("time"), tau, f"{path.name}, OpenSim inverse dynamics{model}")
+    return replace(torques, remarks=(*storage.remarks, *doubled))

@@ -53,8 +53,8 @@ class NumericTable:
                 self.path, f"column {twice[:80]!r} occurs more than once", line=self.lines[0] - 1
             )
 
-    def once_each_time(self, time: str, names: Sequence[str]) -> tuple[NumericTable, int]:
-        """The table without rows that repeat time and values of the row above, and how many were left out.
+    def once_each_time(self, time: str, names: Sequence[str]) -> tuple[NumericTable, tuple[str, ...]]:
+        """The table without rows that repeat time and values of the row above, and a remark on them.
 
         OpenSim's RRA and CMC write such rows where they restart.
 
@@ -68,7 +68,7 @@ class NumericTable:
         used = self.columns([time, *names])
         same = np.flatnonzero(np.abs(np.diff(used[:, 0])) < SAME_TIME) + 1
         if not same.size:
-            return self, 0
+            return self, ()
         differs = ~np.isclose(used[same], used[same - 1], rtol=0, atol=1e-9, equal_nan=True)
         if differs.any():
             row, k = np.argwhere(differs)[0]
@@ -78,7 +78,8 @@ class NumericTable:
             raise FormatError(self.path, why, line=self.lines[row])
         kept = np.setdiff1d(np.arange(len(used)), same)
         lines = [self.lines[row] for row in kept]
-        return NumericTable(self.path, self.names, self.values[kept], lines), len(same)
+        remark = f"rows that repeat time and values of the row above: {len(same)}, left out"
+        return NumericTable(self.path, self.names, self.values[kept], lines), (remark,)
 
     def refuse(self, bad: Mask, names: Sequence[str], why: str) -> None:
         """Refuse a table with bad cells.
