@@ -101,7 +101,7 @@ def test_a_set_of_ones_own(tmp_path):
         (("hips = 0.7", "hips = 7"), "hips is 7; davis, harrington or 0.2 .. 1.5 is accepted"),
         (("hips = 0.7", "hip = 0.7"), "entry of a marker set 'hip'; did you mean 'hips'"),
         (("[0.1, 0.2, -0.5]", "[0.1, 0.2]"), "place of marker '{S}_thigh' is .* three numbers"),
-        (("[0.1, 0.2, -0.5]", "[0.1, nan, -0.5]"), "three numbers"),
+        (("[0.1, 0.2, -0.5]", "[0.1, nan, -0.5]"), r"\{S\}_thigh.place is no finite number"),
         (("spread_mm = 20", "spread_mm = 0"), "spread_mm of marker '{S}_knee' is 0"),
         (('"left shank"', '"shank"'), "'left_cluster' is on a shank without its side"),
         (('"left shank"', '"tibia"'), "segment of marker 'left_cluster' 'tibia'"),

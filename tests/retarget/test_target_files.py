@@ -89,7 +89,7 @@ def test_a_robot_whose_zero_is_not_its_stand_walks_all_the_same(tmp_path):
         ('urdf = "x.urdf"\nforward = "north"', "one of x, -x"),
         ('urdf = "x.urdf"\n[limits_deg]\nknee = [1, 0]', "lower, upper"),
         ('urdf = "x.urdf"\n[stand_deg]\nknee = "bent"', "joint = angle"),
-        ('urdf = "x.urdf"\n[stand_deg]\nknee = nan', "joint = angle"),
+        ('urdf = "x.urdf"\n[stand_deg]\nknee = nan', "stand_deg.knee is no finite number"),
         ("urdf = ", "is not TOML"),
         ('urdf = "nowhere.urdf"', "no such file"),
     ],
