@@ -279,4 +279,4 @@ def test_only_opensims_files_and_presets_can_be_chosen_to_write(path):
 def test_radians_in_a_file_of_degrees_are_suspected(path):
     values = degrees()
     values[:, 1:] = np.radians(values[:, 1:])
-    refused(path, storage(values), "radians in a file of degrees?")
+    refused(path, storage(values), r"\(degrees\), but .* radians\?")

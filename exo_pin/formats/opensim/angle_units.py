@@ -16,7 +16,7 @@ _TURN = 2 * np.pi
 """No joint of a leg turns that far [rad]; a walk in degrees always does."""
 
 _MOVES = 0.2
-"""A walk turns its legs by more [rad]; below, a wrong unit can not be seen."""
+"""A walk turns a joint by more from one end to the other [rad]; below, a wrong unit cannot be seen."""
 
 
 def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None) -> tuple[bool, list[str]]:
@@ -35,7 +35,7 @@ def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None)
         FormatError: Nothing states the unit, or the numbers contradict it.
         UnknownNameError: The user's unit is none.
     """
-    name, largest = _largest(table)
+    name, largest, moves = _largest(table)
     reached = f"{name} reaches {largest:.3g}"
     stated = keys.get("indegrees", "").lower()
     header = f"the header says inDegrees={stated[:20]}" if stated else "the header has no inDegrees"
@@ -45,12 +45,12 @@ def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None)
             raise FormatError(table.path, f"units are given as rad, but {reached}: degrees?")
         contradicts = stated in ("yes", "no") and degrees != (stated == "yes")
         said = [f"{header}; angles are read as {chosen}, as the units are given"] * contradicts
-        few = degrees and _MOVES < largest < _HALF_TURN
+        few = degrees and moves and largest < _HALF_TURN
         return degrees, said + [
             f"angles are read as deg, as the units are given, but {reached}: radians?"
         ] * few
     if stated == "yes":
-        if _MOVES < largest < _HALF_TURN:
+        if moves and largest < _HALF_TURN:
             raise FormatError(table.path, f"{header} (degrees), but {reached}: radians? Give the units")
         return True, []
     if largest > _TURN:
@@ -63,10 +63,11 @@ def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None)
     raise FormatError(table.path, f"{why}; {reached}")
 
 
-def _largest(table: NumericTable) -> tuple[str, float]:
-    """The leg coordinate with the largest number, and that number without its sign."""
+def _largest(table: NumericTable) -> tuple[str, float, bool]:
+    """The leg coordinate with the largest number, that number without its sign, and whether a leg moves."""
     names = [name for name in LEG_COORDINATES if name in table.names]
-    values = np.abs(table.columns(names))
-    peaks = np.where(np.isfinite(values), values, 0.0).max(axis=0)
+    found = table.columns(names)
+    values = np.where(np.isfinite(found), found, 0.0)
+    peaks = np.abs(values).max(axis=0)
     k = int(peaks.argmax())
-    return names[k], float(peaks[k])
+    return names[k], float(peaks[k]), bool((np.ptp(values, axis=0) > _MOVES).any())
