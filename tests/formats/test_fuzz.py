@@ -28,7 +28,7 @@ from exo_pin.formats.c3d import C3dFile
 from exo_pin.formats.c3d.reader import read_content
 from exo_pin.gait import Event, Gait, normative_gait
 
-FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "100"))  # damaged files of each kind; 100 take seconds
+FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "40"))  # damaged files of each kind: CI has minutes
 FILES_C3D = FILES // 5 if "EXO_PIN_MUTATIONS" in os.environ else 15  # each costs a process
 SLOWEST = 5.0  # [s] of this process
 PIECES = [  # what hurts readers

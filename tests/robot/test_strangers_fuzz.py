@@ -21,7 +21,7 @@ from exo_pin.robot.urdf_joints import followers
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
 from exo_pin.viewer.scenes.link_nodes import linkage
 
-FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "100"))  # damaged files of each kind; 100 take seconds
+FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "40"))  # damaged files of each kind: CI has minutes
 FILES_XACRO = FILES // 10 if "EXO_PIN_MUTATIONS" in os.environ else 10  # each costs a process
 SLOWEST = 5.0  # [s] of this process
 PIECES = [  # what hurts readers
