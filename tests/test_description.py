@@ -169,3 +169,11 @@ def test_absurd_arguments_are_refused(name, value):
 def test_unknown_names_are_refused(words):
     with pytest.raises(UnknownNameError):
         description.urdf(BODY, **words)
+
+
+@pytest.mark.parametrize("hips", [0.10, 0.25])
+@pytest.mark.parametrize("device", ["exo12", "lopes8", "planar9"])
+def test_parts_of_narrow_and_wide_hips_have_positive_sizes(hips, device):
+    body = Body.from_stature(1.75, hip_width=hips)
+    for box in ET.fromstring(description.urdf(body, device=device)).iter("box"):
+        assert min(float(size) for size in box.get("size").split()) > 0
