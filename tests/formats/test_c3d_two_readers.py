@@ -36,7 +36,6 @@ def same(one, other):
         "angle_unit",
         "vertical",
         "analog_rate",
-        "mass",
     ):
         assert getattr(one, name) == getattr(other, name), name
     for name in ("time", "points"):
