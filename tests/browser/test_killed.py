@@ -58,7 +58,12 @@ def begin(place, name):
     places = {"TMPDIR": "tmp", cache.VARIABLE: "cache", "HOME": "home"}
     environment = os.environ | {variable: str(place / folder) for variable, folder in places.items()}
     return subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),  # not ignored as under nohup
     )
 
 

@@ -28,7 +28,8 @@ def environment(folder):
 def begin(folder, *words):
     """A command that is being started; it tells when Python itself has started and `run` has begun."""
     code = (
-        "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_DFL); os.write(1, b'begun\\n'); "
+        "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_DFL); "
+        "signal.signal(signal.SIGHUP, signal.SIG_DFL); os.write(1, b'begun\\n'); "  # not as under nohup
         "from exo_pin.__main__ import run; sys.exit(run())"
     )
     command = [sys.executable, "-c", code, *map(str, words)]
