@@ -93,6 +93,7 @@ def test_a_signal_during_an_import_waits_for_its_end(tmp_path, monkeypatch):
 
 
 def test_an_error_that_comes_of_a_signal_counts_as_the_signal():
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup, under which it is ignored, is another test's
     with pytest.raises(stopping.Stopped), stopping.stoppable():
         converting()
 
