@@ -19,6 +19,7 @@ from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
 from exo_pin.ik.targets import is_pose, pose_array
 from exo_pin.robot import Robot
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
+from exo_pin.robot.subtree import frame_index
 
 _asarray, _forward_kinematics = np.asarray, pin.framesForwardKinematics  # found once: an inner loop
 
@@ -86,7 +87,7 @@ class Online:
         self._trial = self.q[self._columns].copy()
         self._model = bare_legs(axes)
         self._data = self._model.createData()
-        self._tips = [self._data.oMf[self._model.getFrameId(name)] for name in frames]
+        self._tips = [self._data.oMf[frame_index(self._model, name)] for name in frames]
         self._memory = self._trial.data
         self._pack = struct.Struct(f"{len(self._trial)}d").pack_into  # half the cost of an assignment
 

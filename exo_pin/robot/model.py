@@ -22,7 +22,13 @@ from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.robot.leg_axes import LegAxes, read_leg
-from exo_pin.robot.subtree import Subtree, independent_groups, read_subtree, supporting_joints
+from exo_pin.robot.subtree import (
+    Subtree,
+    frame_index,
+    independent_groups,
+    read_subtree,
+    supporting_joints,
+)
 
 _FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _UNIT, _NO_ATTITUDE = 1e-12, 1e-6  # of a quaternion: length 1 but for rounding; no direction is left
@@ -98,11 +104,10 @@ class Robot:
         Raises:
             UnknownNameError: Nothing has that name.
         """
-        for kind in (pin.FrameType.BODY, pin.FrameType.JOINT, pin.FrameType.FIXED_JOINT):
-            index = self.model.getFrameId(name, kind)
-            if index < self.model.nframes:
-                return int(index)
-        raise UnknownNameError("frame", name, (*self.frames, *self.joints))
+        index = frame_index(self.model, name)
+        if index == self.model.nframes:
+            raise UnknownNameError("frame", name, (*self.frames, *self.joints))
+        return index
 
     def q(self, angles: Mapping[str, float] = MappingProxyType({})) -> Array:
         """A configuration (nq,) from joint angles [rad] by name; the others are zero.

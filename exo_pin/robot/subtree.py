@@ -111,7 +111,7 @@ def read_subtree(
     lower, upper = np.array(reduced.lowerPositionLimit), np.array(reduced.upperPositionLimit)
     if floating:
         lower[:_FREE], upper[:_FREE] = -np.inf, np.inf
-    ids = tuple(_frame(reduced, name) for name in frames)
+    ids = tuple(frame_index(reduced, name) for name in frames)
     return Subtree(reduced, frames, ids, np.array(columns, dtype=int), lower, upper, floating)
 
 
@@ -134,9 +134,14 @@ def _rename_links(model: Any, names: Mapping[str, str]) -> None:
             model.frames[k].name = names.get(model.frames[k].name, model.frames[k].name)
 
 
-def _frame(model: Any, name: str) -> int:
-    for kind in (pin.FrameType.BODY, pin.FrameType.JOINT):
-        index = model.getFrameId(name, kind)
+def frame_index(model: Any, name: str) -> int:
+    """Pinocchio's index of a link, point frame or joint (a fixed one too), in this order.
+
+    Pinocchio refuses a name without a kind where two frames have it: a link and a joint, or a link called
+    `universe`, as Pinocchio's own root is. An unknown name has the number of frames as its index.
+    """
+    for kind in (pin.FrameType.BODY, pin.FrameType.JOINT, pin.FrameType.FIXED_JOINT):
+        index = int(model.getFrameId(name, kind))
         if index < model.nframes:
-            return int(index)
-    return int(model.getFrameId(name))  # a joint that is fixed here has become a fixed frame
+            break
+    return index

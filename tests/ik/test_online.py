@@ -44,6 +44,22 @@ def test_one_foot_alone_moves_one_leg_alone(robot, walk):
     np.testing.assert_array_equal(answer[:6], q[0, :6])
 
 
+@pytest.mark.parametrize("name", ["left_ankle_inversion", "left_knee_flexion", "universe"])
+def test_a_foot_may_have_the_name_of_a_joint_or_of_pinocchios_root(robot, walk, name):
+    q, T = walk
+    shared = load_urdf(robot.urdf.replace('"left_foot"', f'"{name}"'), placement=robot.placement)
+    loop = ik.Online(shared, q[0], frames=(name, "right_foot"))
+    for k in (1, 50):
+        np.testing.assert_allclose(loop.step(T[k, 0], T[k, 1]), q[k], atol=ANGLE)
+        assert loop.reached
+    far = T[49:52].copy()
+    far[:, 0, 2, 3] -= 0.5  # the nearest posture has a model of its own
+    track, plain = (
+        ik.track(made, {foot: far[:, 0]}) for made, foot in ((shared, name), (robot, "left_foot"))
+    )
+    np.testing.assert_allclose(track.q, plain.q, atol=ANGLE)
+
+
 @pytest.mark.parametrize("foot", [0, 1])
 def test_one_foot_out_of_reach_says_so_and_the_other_leg_goes_on(robot, walk, foot):
     q, T = walk

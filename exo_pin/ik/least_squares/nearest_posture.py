@@ -20,6 +20,7 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
+from exo_pin.robot.subtree import frame_index
 
 _LOCAL = pin.ReferenceFrame.LOCAL
 _dot, _solve = np.dot, np.linalg.solve  # found once: an inner loop
@@ -48,7 +49,7 @@ class NearestPosture:
         self._leg, self._met, self._max_iterations = leg, tolerance**2, max_iterations
         self._lower, self._upper = leg.lower, leg.upper
         self._model = bare_legs([leg])
-        self._data, self._tip = self._model.createData(), self._model.getFrameId(leg.frame)
+        self._data, self._tip = self._model.createData(), frame_index(self._model, leg.frame)
 
     def of_two_starts(self, q: Array, seed: Array, target: Any, *, promising: bool) -> Array:
         """The posture (6,) followed from q; that from a second start where q leads to a worse minimum.
@@ -146,7 +147,7 @@ def bare_legs(legs: Sequence[LegAxes]) -> Any:
             joint = pin.JointModelRevoluteUnaligned(own.axes[j])
             parent, before = model.addJoint(parent, joint, place, f"{own.frame}_{j}"), own.points[j]
         tip = pin.SE3(own.tip[:3, :3], own.tip[:3, 3] - before)
-        model.addFrame(pin.Frame(own.frame, parent, tip, pin.FrameType.OP_FRAME))
+        model.addFrame(pin.Frame(own.frame, parent, tip, pin.FrameType.BODY))
     return model
 
 
