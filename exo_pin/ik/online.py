@@ -56,14 +56,14 @@ class Online:
         Args:
             robot: The robot; a floating base stays where q0 has it.
             q0: The configuration (nq,) at the start; joints at zero if left out.
-            frames: Frames that `step` takes targets for, each on a leg of six joints.
+            frames: Frames that `step` takes targets for, each on a leg of six joints of its own.
             tolerance: Largest error of an accepted answer [m, rad].
             dt: Time between two steps [s]; None: no speed limit.
             max_iterations: Damped steps per leg and sample where the closed form does not answer.
             base: T_world_pelvis (4, 4); the robot's own placement if left out.
 
         Raises:
-            DescriptionError: A frame is not on a leg of six joints, or a number is wrong.
+            DescriptionError: A frame is not on a leg of six joints, two are on one leg, or a number is wrong.
             UnknownNameError: A frame is unknown.
         """
         self._robot = robot
@@ -78,7 +78,7 @@ class Online:
         self._legs = [_Leg(own, robot, tolerance / 4, max_iterations, dt) for own in axes]
         self._formulas = [leg.exact for leg in self._legs if leg.exact is not None]
         self._exact = len(self._formulas) == len(self._legs)
-        self._columns = _as_slice(np.concatenate([own.columns for own in axes]))
+        self._columns = _as_slice(_columns_apart(axes))
         self._largest = None if dt is None else np.concatenate([leg.largest for leg in self._legs])
         self._all, self._none = (True,) * len(axes), (False,) * len(axes)
         self.reached, self.slowed, self.reached_by_foot = False, False, self._none
@@ -224,6 +224,15 @@ def _own_leg(robot: Robot, frame: str) -> LegAxes:
     if own is None:
         raise DescriptionError(f"{frame} is not on a leg of six revolute joints; use ik.solve for it")
     return own
+
+
+def _columns_apart(legs: Sequence[LegAxes]) -> Index:
+    """Where the legs' joints stand in q, one leg after another; each leg has one frame."""
+    columns = np.concatenate([own.columns for own in legs])
+    if len(np.unique(columns)) < len(columns):
+        names = ", ".join(own.frame for own in legs)
+        raise DescriptionError(f"{names}: two are on one leg; one frame for each leg is accepted")
+    return columns
 
 
 def _as_slice(columns: Index) -> slice | Index:

@@ -60,6 +60,14 @@ def test_a_foot_may_have_the_name_of_a_joint_or_of_pinocchios_root(robot, walk, 
     np.testing.assert_allclose(track.q, plain.q, atol=ANGLE)
 
 
+@pytest.mark.parametrize(
+    "frames", [("left_foot", "left_foot"), ("right_foot", "left_foot", "left_sole_plate")]
+)
+def test_two_frames_on_one_leg_are_refused(robot, frames):
+    with pytest.raises(DescriptionError, match=r"one leg; one frame for each leg"):
+        ik.Online(robot, frames=frames)
+
+
 @pytest.mark.parametrize("foot", [0, 1])
 def test_one_foot_out_of_reach_says_so_and_the_other_leg_goes_on(robot, walk, foot):
     q, T = walk
