@@ -10,7 +10,7 @@ import pytest
 from exo_pin.errors import FormatError
 from exo_pin.formats import load_gait, open_trial, save_gait
 from exo_pin.formats.c3d import reader
-from exo_pin.formats.c3d.parameters import Parameters
+from exo_pin.formats.c3d.parameters import C3dParameters
 from exo_pin.formats.c3d.plate_signals import plates_of
 from exo_pin.formats.c3d.reader import read_content
 from exo_pin.gait import Gait, normative_gait
@@ -101,7 +101,7 @@ def plate(kind, rows, corners, origin, **more):
     numbers = {"USED": [1], "TYPE": [kind], "CORNERS": corners, "ORIGIN": origin, **more}
     numbers |= {"CHANNEL": np.arange(1, len(rows) + 1)[:, None]}
     parameters = {f"FORCE_PLATFORM:{name}": np.asarray(value, float) for name, value in numbers.items()}
-    return plates_of(Parameters({"POINT:UNITS": ("mm",)}, parameters), np.asarray(rows, float))
+    return plates_of(C3dParameters({"POINT:UNITS": ("mm",)}, parameters), np.asarray(rows, float))
 
 
 CORNERS = np.array([[300, 0, 0, 300], [200, 200, -200, -200], [0, 0, 0, 0]], float)[:, [0, 1, 2, 3]]

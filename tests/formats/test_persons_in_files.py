@@ -9,7 +9,7 @@ from exo_pin.anatomy.sized_body import sized_body
 from exo_pin.errors import FormatError
 from exo_pin.formats import open_trial, save_gait
 from exo_pin.formats.c3d.joint_centres import measured_person
-from exo_pin.formats.c3d.parameters import Parameters
+from exo_pin.formats.c3d.parameters import C3dParameters
 from exo_pin.formats.c3d.subject_parameters import stated_person
 from exo_pin.formats.opensim.osim_person import model_person
 from exo_pin.gait import normative_gait
@@ -21,7 +21,7 @@ MODEL = "opensim_subject01_walk/subject01_simbody.osim"
 
 def stated(**parameters):
     return stated_person(
-        Parameters({}, {f"PROCESSING:{k.upper()}": np.array([x]) for k, x in parameters.items()})
+        C3dParameters({}, {f"PROCESSING:{k.upper()}": np.array([x]) for k, x in parameters.items()})
     )
 
 
@@ -85,7 +85,7 @@ def test_what_no_unit_makes_a_persons_is_not_used_and_said(parameters):
 
 def test_sizes_of_several_subjects_are_the_first_ones_and_that_is_said():
     numbers = {"SUBJECTS:USED": np.array([2.0]), "PROCESSING:HEIGHT": np.array([1700.0, 1650.0])}
-    found = stated_person(Parameters({"SUBJECTS:NAMES": ("Anna", "Ben")}, numbers))
+    found = stated_person(C3dParameters({"SUBJECTS:NAMES": ("Anna", "Ben")}, numbers))
     assert found.sizes["stature"].value == 1.7
     assert "2 subjects" in found.remarks[0]
 

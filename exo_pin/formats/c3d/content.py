@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.arrays import Array
-from exo_pin.formats.c3d.parameters import Parameters
+from exo_pin.formats.c3d.parameters import C3dParameters
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ class C3dContent:
     events: C3dEvents
     analog_rate: float
     plates: tuple[C3dPlate, ...]
-    parameters: Parameters
+    parameters: C3dParameters
     analysis: Mapping[str, tuple[float, str]]
     remarks: tuple[str, ...] = ()
 

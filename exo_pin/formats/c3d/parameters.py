@@ -15,7 +15,7 @@ _MOST_CONTINUATIONS = 40
 
 
 @dataclass(frozen=True, eq=False)
-class Parameters:
+class C3dParameters:
     """Every parameter of a file under `GROUP:NAME` in capitals.
 
     Attributes:
@@ -46,7 +46,7 @@ class Parameters:
         return float(values[0]) if values.size and np.isfinite(values[0]) else None
 
 
-def from_json(text: str) -> Parameters:
+def from_json(text: str) -> C3dParameters:
     """The parameters as the child process writes them."""
     texts, numbers = dict[str, tuple[str, ...]](), dict[str, Array]()
     for name, value in json.loads(text).items():
@@ -54,7 +54,7 @@ def from_json(text: str) -> Parameters:
             texts[name] = tuple(str(entry).strip() for entry in value)
         else:
             numbers[name] = np.array(value["numbers"], dtype=float).reshape(value["shape"])
-    return Parameters(texts, numbers)
+    return C3dParameters(texts, numbers)
 
 
 def _continued(name: str) -> list[str]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.formats.c3d.content import C3dPlate
-from exo_pin.formats.c3d.parameters import Parameters
+from exo_pin.formats.c3d.parameters import C3dParameters
 
 _CHANNELS = {1: 6, 2: 6, 3: 8, 4: 6}
 """Type of plate -> its analog channels."""
@@ -46,7 +46,7 @@ class _Geometry(NamedTuple):
     calibration: Array
 
 
-def plates_of(parameters: Parameters, signals: Array) -> FoundSignals:
+def plates_of(parameters: C3dParameters, signals: Array) -> FoundSignals:
     """The force plates of a file.
 
     Args:
@@ -74,7 +74,7 @@ def plates_of(parameters: Parameters, signals: Array) -> FoundSignals:
     return FoundSignals(tuple(plates), tuple(remarks))
 
 
-def _geometry(parameters: Parameters, k: int) -> _Geometry | None:
+def _geometry(parameters: C3dParameters, k: int) -> _Geometry | None:
     """Of plate k; None where it is not stated, or of another type."""
     kind, corners, origin = (_at(parameters, name, k) for name in ("TYPE", "CORNERS", "ORIGIN"))
     known = int(kind[0]) if kind.size and np.isfinite(kind[0]) else 0
@@ -93,7 +93,7 @@ def _geometry(parameters: Parameters, k: int) -> _Geometry | None:
     return _Geometry(known, origin, axes, corners.mean(axis=1), square)
 
 
-def _at(parameters: Parameters, name: str, k: int) -> Array:
+def _at(parameters: C3dParameters, name: str, k: int) -> Array:
     """The part of a parameter that belongs to plate k: the last dimension counts the plates."""
     values = parameters.numbers.get(f"FORCE_PLATFORM:{name}", np.zeros(0))
     if name == "TYPE":

@@ -18,7 +18,7 @@ from exo_pin.errors import FormatError
 from exo_pin.files import read_bytes
 from exo_pin.formats.c3d import header
 from exo_pin.formats.c3d.content import C3dContent, C3dEvents
-from exo_pin.formats.c3d.parameters import Parameters, from_json
+from exo_pin.formats.c3d.parameters import C3dParameters, from_json
 from exo_pin.formats.c3d.plate_signals import plates_of
 from exo_pin.gait.trial import unique
 
@@ -144,7 +144,7 @@ def _content(found: _Found, layout: header.Layout, remarks: list[str]) -> C3dCon
     )
 
 
-def _events(found: _Found, parameters: Parameters, layout: header.Layout) -> C3dEvents:
+def _events(found: _Found, parameters: C3dParameters, layout: header.Layout) -> C3dEvents:
     """The events of the parameters, or of the header as in the 1990s."""
     labels = parameters.all_texts("EVENT:LABELS")
     if labels:
@@ -156,7 +156,7 @@ def _events(found: _Found, parameters: Parameters, layout: header.Layout) -> C3d
     return C3dEvents(np.array([np.zeros(len(times)), times]), words, (), in_header=bool(words))
 
 
-def _analysis(parameters: Parameters) -> dict[str, tuple[float, str]]:
+def _analysis(parameters: C3dParameters) -> dict[str, tuple[float, str]]:
     """Name -> value and unit of the first of each name."""
     names, units = (parameters.all_texts(f"ANALYSIS:{name}") for name in ("NAMES", "UNITS"))
     values = parameters.numbers.get("ANALYSIS:VALUES", np.zeros(0)).ravel().tolist()

@@ -11,7 +11,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.anthropometry import LENGTHS
 from exo_pin.anatomy.davis_hip import hip_to_ankle
 from exo_pin.anatomy.person import LEG_PART, Measure, Person
-from exo_pin.formats.c3d.parameters import Parameters
+from exo_pin.formats.c3d.parameters import C3dParameters
 
 GROUPS = ("PROCESSING", "SUBJECTS", "SUBJECT", "PATIENT", "ANTHROPOMETRY")
 """Groups of parameters that are looked through; a size of an earlier one wins."""
@@ -52,7 +52,7 @@ _LENGTH_UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 _SIDE = "L|R|LEFT|RIGHT"
 
 
-def stated_person(parameters: Parameters) -> Person:
+def stated_person(parameters: C3dParameters) -> Person:
     """The person by a file's parameters: height, mass, lengths of the legs, widths of knees and ankles.
 
     Vicon writes millimetres and kilograms, and 0 for what nobody measured. Lengths of femur and tibia are
@@ -82,7 +82,7 @@ def stated_person(parameters: Parameters) -> Person:
     return Person(own, {name: x for name, x in found.items() if name not in own}, tuple(remarks))
 
 
-def _first_values(parameters: Parameters) -> Iterator[tuple[str, str, float]]:
+def _first_values(parameters: C3dParameters) -> Iterator[tuple[str, str, float]]:
     """Group, name and first value of each parameter that states something, in the order of `GROUPS`."""
     for wanted in GROUPS:
         for place in (*parameters.numbers, *parameters.texts):
@@ -92,7 +92,7 @@ def _first_values(parameters: Parameters) -> Iterator[tuple[str, str, float]]:
                 yield wanted, name, value
 
 
-def _number(parameters: Parameters, place: str) -> float | None:
+def _number(parameters: C3dParameters, place: str) -> float | None:
     """The first number of a parameter; some writers have it as a text."""
     try:
         value = float(parameters.text(place) or "") if place in parameters.texts else parameters.number(place)
