@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.formats.nexus.sections import Quantity, Section
+from exo_pin.formats.nexus.sections import ExportedSection, Quantity
 from exo_pin.formats.units import is_newton, metres_per
 from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
 
@@ -21,7 +21,7 @@ class FoundDevices(NamedTuple):
     remarks: tuple[str, ...]
 
 
-def force_devices(section: Section) -> FoundDevices:
+def force_devices(section: ExportedSection) -> FoundDevices:
     """The force plates of a section: pairs of quantities with the axes Fx Fy Fz and Cx Cy Cz of one device.
 
     Nexus may export the force on the plate instead of that on the foot: where the plates are pressed upwards,

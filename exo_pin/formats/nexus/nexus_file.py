@@ -15,7 +15,7 @@ from exo_pin.files import read_lines
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, model_angles
 from exo_pin.formats.nexus.force_devices import force_devices
-from exo_pin.formats.nexus.sections import ExportedEvent, Quantity, Section, read_sections, title_of
+from exo_pin.formats.nexus.sections import ExportedEvent, ExportedSection, Quantity, read_sections, title_of
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.units import metres_per, radians_per
@@ -37,7 +37,7 @@ class NexusFile(TrialFile):
         exported: Rows of the section Events.
     """
 
-    sections: tuple[Section, ...]
+    sections: tuple[ExportedSection, ...]
     exported: tuple[ExportedEvent, ...]
 
     @property
@@ -92,7 +92,7 @@ def open_nexus(path: Path) -> NexusFile:
     return NexusFile(path, tuple(sections), tuple(events))
 
 
-def _trial(path: Path, sections: Iterable[Section], exported: Iterable[ExportedEvent]) -> Markers:
+def _trial(path: Path, sections: Iterable[ExportedSection], exported: Iterable[ExportedEvent]) -> Markers:
     video = [s for s in sections if s.title in ("Model Outputs", "Trajectories")]
     devices = [s for s in sections if s.title == "Devices"]
     used = {id(s) for s in (*video, *devices)}
@@ -138,7 +138,7 @@ def _trial(path: Path, sections: Iterable[Section], exported: Iterable[ExportedE
     )
 
 
-def _frames(path: Path, video: Iterable[Section]) -> Array:
+def _frames(path: Path, video: Iterable[ExportedSection]) -> Array:
     """`(n,)` the numbers of all frames, without a gap."""
     numbers = np.concatenate([section.frame for section in video])
     first, last = numbers.min(), numbers.max()

@@ -41,7 +41,7 @@ class Quantity(NamedTuple):
     values: Array
 
 
-class Section(NamedTuple):
+class ExportedSection(NamedTuple):
     """A section with numbers.
 
     Attributes:
@@ -76,7 +76,7 @@ def title_of(line: str) -> str | None:
     return next((title for title in TITLES if alone and title.lower() == first.lower()), None)
 
 
-def read_sections(path: Path, lines: Sequence[str]) -> tuple[list[Section], list[ExportedEvent]]:
+def read_sections(path: Path, lines: Sequence[str]) -> tuple[list[ExportedSection], list[ExportedEvent]]:
     """The sections of a file.
 
     Args:
@@ -87,7 +87,7 @@ def read_sections(path: Path, lines: Sequence[str]) -> tuple[list[Section], list
         FormatError: With line and reason: a section without rate, names or rows, ragged or not numeric rows.
     """
     starts = [k for k, line in enumerate(lines) if title_of(line)]
-    sections, events = list[Section](), list[ExportedEvent]()
+    sections, events = list[ExportedSection](), list[ExportedEvent]()
     for start, stop in pairwise([*starts, len(lines)]):
         title = title_of(lines[start])
         assert title is not None  # that is how starts were found
@@ -107,7 +107,7 @@ def _cells(line: str, separator: str) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
-def _section(path: Path, title: str, body: Sequence[str], line: int) -> Section:
+def _section(path: Path, title: str, body: Sequence[str], line: int) -> ExportedSection:
     rows = [(line + k, text) for k, text in enumerate(body[_HEADER:], _HEADER) if text.strip(' ,;"\t')]
     if len(body) < _HEADER or not rows:
         raise FormatError(path, f"section {title} has no rows below its names, axes and units", line=line)
@@ -130,7 +130,7 @@ def _section(path: Path, title: str, body: Sequence[str], line: int) -> Section:
         raise FormatError(path, f"section {title}: a row without a frame number", line=rows[0][0])
     part = values[:, 1] if columns == 2 else np.zeros(len(values))
     found = _quantities(names, axes, units, values, columns)
-    return Section(title, line, rate, values[:, 0], part, found)
+    return ExportedSection(title, line, rate, values[:, 0], part, found)
 
 
 def _quantities(
