@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.davis_hip import from_front_spine
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.markers.rigid_fit import rigid_fit
@@ -97,12 +98,9 @@ def _leg(chosen: MarkerSet, paths: Mapping[str, Array]) -> float | None:
 
 
 def _davis(breadth: float, leg: float) -> tuple[float, Array]:
-    """Hip width, and mid-hip from the middle of the front markers: Davis 1991, Hum Mov Sci 10:575."""
-    C, theta, beta = 0.115 * leg - 0.0153, 0.5, 0.314
-    trochanter = 0.1288 * leg - 0.04856 + _MARKER_RADIUS
-    x = C * np.cos(theta) * np.sin(beta) - trochanter * np.cos(beta)
-    z = -C * np.cos(theta) * np.cos(beta) - trochanter * np.sin(beta)
-    return float(breadth - 2 * C * np.sin(theta)), np.array([x, 0.0, z])
+    """Hip width, and mid-hip from the middle of the front markers, by `anatomy.davis_hip`."""
+    forward, inwards, up = from_front_spine(leg, _MARKER_RADIUS).tolist()
+    return breadth - 2 * inwards, np.array([forward, 0.0, up])
 
 
 def _harrington(breadth: float, depth: float) -> tuple[float, Array]:
