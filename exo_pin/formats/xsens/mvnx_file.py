@@ -16,6 +16,7 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.metadata import Metadata, to_gait
+from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.xsens.mvnx_frames import MvnxFrames, read_frames
 from exo_pin.gait import Event, Gait
@@ -101,14 +102,9 @@ def _base(path: Path, frames: MvnxFrames) -> Array | None:
         return None
     length = np.linalg.norm(frames.pelvis_quaternion, axis=1)
     if (np.abs(length - 1) > 1e-2).any():
-        raise FormatError(
-            path, "the pelvis's orientation is no unit quaternion, or it is more than 10 km away"
-        )
-    w, x, y, z = (frames.pelvis_quaternion / length[:, None]).T
-    T = np.tile(np.eye(4), (len(w), 1, 1))
-    T[:, :3, 0] = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=1)
-    T[:, :3, 1] = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], axis=1)
-    T[:, :3, 2] = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
+        raise FormatError(path, "the pelvis's orientation is no unit quaternion")
+    T = np.tile(np.eye(4), (len(length), 1, 1))
+    T[:, :3, :3] = rotations(frames.pelvis_quaternion / length[:, None])
     T[:, :3, 3] = frames.pelvis_position
     return T
 
