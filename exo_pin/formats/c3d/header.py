@@ -54,7 +54,6 @@ class Record(NamedTuple):
         kind: Bytes of a value: -1 for text, 1, 2 or 4 (real); 0 for a group.
         size: Values.
         at: Where they begin [byte].
-        next_at: Where the distance to the next record stands.
     """
 
     group: int
@@ -62,7 +61,6 @@ class Record(NamedTuple):
     kind: int
     size: int
     at: int
-    next_at: int
 
 
 def check(path: Path, data: bytes) -> Layout:
@@ -143,7 +141,7 @@ def _records(path: Path, section: bytes, at: int, processor: int) -> Iterator[Re
             raise FormatError(path, "a parameter's name leaves the file; damaged or cut short")
         name = section[name_at:next_at].decode("latin-1").upper()
         if group < 0:
-            yield Record(-group, name, 0, 0, next_at, next_at)
+            yield Record(-group, name, 0, 0, next_at)
         else:
             yield _parameter(path, section, group, name, next_at)
         step = int(_integers(section[next_at : next_at + 2], processor)[0])
@@ -163,7 +161,7 @@ def _parameter(path: Path, section: bytes, group: int, name: str, next_at: int) 
         raise FormatError(path, f"parameter {name[:40]!r} is malformed; damaged?")
     if data_at + count * abs(kind) > len(section):
         raise FormatError(path, f"parameter {name[:40]!r} leaves the file; damaged or cut short")
-    return Record(group, name, kind, count, data_at, next_at)
+    return Record(group, name, kind, count, data_at)
 
 
 def _integers(raw: bytes, processor: int) -> NDArray[np.uint16]:
