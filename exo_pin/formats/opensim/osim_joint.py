@@ -70,16 +70,16 @@ class Joint(NamedTuple):
             dict.fromkeys(a.coordinate for a in (*self.rotations, *self.translations) if a.coordinate)
         )
 
-    def frame_at(self, defaults: Mapping[str, float]) -> Array:
+    def frame_at(self, values: Mapping[str, float]) -> Array:
         """`(4, 4)` the joint's frame in the parent body, moved, at single values of coordinates [rad, m].
 
         Unlike `transform` it follows curves; coordinates without a value are at 0.
         """
         T = np.eye(4)
         for axis in self.translations:
-            T[:3, 3] += axis.at(defaults.get(axis.coordinate, 0.0)) * np.array(axis.vector)
+            T[:3, 3] += axis.at(values.get(axis.coordinate, 0.0)) * np.array(axis.vector)
         for axis in self.rotations:
-            T[:3, :3] = T[:3, :3] @ about(axis.vector, axis.at(defaults.get(axis.coordinate, 0.0)))
+            T[:3, :3] = T[:3, :3] @ about(axis.vector, axis.at(values.get(axis.coordinate, 0.0)))
         return np.asarray(self.in_parent @ T)
 
     def transform(self, values: Mapping[str, Array]) -> Array:
@@ -97,6 +97,19 @@ class Joint(NamedTuple):
 def _amount(axis: Axis, values: Mapping[str, Array], n: int) -> Array:
     moved = axis.slope * values[axis.coordinate] if axis.coordinate else np.zeros(n)
     return np.asarray(moved + axis.offset)
+
+
+def body_pose(chain: Sequence[Joint], values: Mapping[str, float]) -> Array:
+    """`(4, 4)` the last body of a chain of joints in the first one's parent; `values` as in `frame_at`."""
+    T = np.eye(4)
+    for link in chain:
+        T = T @ link.frame_at(values) @ np.linalg.inv(link.in_child)
+    return T
+
+
+def joint_centre(chain: Sequence[Joint], values: Mapping[str, float]) -> Array:
+    """`(3,)` centre of the last joint of a chain in the first one's parent [m]; `values` as in `frame_at`."""
+    return np.asarray((body_pose(chain[:-1], values) @ chain[-1].frame_at(values))[:3, 3])
 
 
 def offset(translation: Sequence[float], orientation: Sequence[float]) -> Array:

@@ -14,7 +14,7 @@ from exo_pin.anatomy.names import Segment, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF
-from exo_pin.formats.opensim.osim_joint import Joint
+from exo_pin.formats.opensim.osim_joint import Joint, body_pose, joint_centre
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
 from exo_pin.formats.opensim.osim_xml import vector_of
 from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
@@ -96,20 +96,8 @@ def _leg(model: OsimModel, side: Side) -> _Leg:
             model.path, f"no chain of joints {', '.join(names)} from the pelvis to the {side} foot"
         )
     joints = (hip, knee, last)
-    return _Leg(joints, np.array([_origin(chain[chain.index(hip) : chain.index(j) + 1]) for j in joints]))
-
-
-def _origin(chain: list[Joint]) -> Array:
-    """`(3,)` centre of the last joint of a chain, in the first one's parent [m]."""
-    return np.asarray((_pose(chain[:-1]) @ chain[-1].frame_at({}))[:3, 3])
-
-
-def _pose(chain: list[Joint]) -> Array:
-    """`(4, 4)` the last body of a chain in the first one's parent."""
-    T = np.eye(4)
-    for link in chain:
-        T = T @ link.frame_at({}) @ np.linalg.inv(link.in_child)
-    return T
+    chains = [chain[chain.index(hip) : chain.index(j) + 1] for j in joints]
+    return _Leg(joints, np.array([joint_centre(links, {}) for links in chains]))
 
 
 def _marker(
@@ -121,7 +109,7 @@ def _marker(
         return ModelMarker(name, "pelvis", None, FROM_OPENSIM @ (at[:3] - middle))
     for side, leg in legs.items():
         for segment, chain, centre in _segments(model, body, leg):
-            place = (_pose(chain) @ at)[:3] - centre
+            place = (body_pose(chain, {}) @ at)[:3] - centre
             return ModelMarker(name, segment, side, FROM_OPENSIM @ place)
     return None
 

@@ -12,7 +12,7 @@ from exo_pin.anatomy.person import Measure, Person
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim.coordinate_names import COORDINATE_OF
-from exo_pin.formats.opensim.osim_joint import Joint
+from exo_pin.formats.opensim.osim_joint import Joint, joint_centre
 from exo_pin.formats.opensim.osim_model import OsimModel, load_model
 
 _CENTRES: tuple[Movement, ...] = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
@@ -58,7 +58,7 @@ def _centres(model: OsimModel, side: Side) -> list[Array]:
         chain = _from_pelvis(model, hip, link)
         if not chain:
             break
-        found.append(_origin(chain, model))
+        found.append(joint_centre(chain, model.defaults))
     return found
 
 
@@ -71,14 +71,6 @@ def _from_pelvis(model: OsimModel, hip: Joint, link: Joint | None) -> list[Joint
     except FormatError:
         return []
     return chain[chain.index(hip) :] if hip in chain else []
-
-
-def _origin(chain: list[Joint], model: OsimModel) -> Array:
-    """`(3,)` where the last joint of a chain has its centre, seen from the first one's parent [m]."""
-    T = np.eye(4)
-    for link in chain[:-1]:
-        T = T @ link.frame_at(model.defaults) @ np.linalg.inv(link.in_child)
-    return np.asarray((T @ chain[-1].frame_at(model.defaults))[:3, 3])
 
 
 def _apart(a: Array, b: Array) -> float:
