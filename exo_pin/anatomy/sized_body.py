@@ -64,7 +64,7 @@ def sized_body(person: Person, *, sex: Sex = "male", given: Mapping[str, Any] | 
     values.setdefault("mass", round(_mass(known).value, 3))
     body = Body.from_stature(**values)
     stated = {name: Measure(getattr(body, name), "command line") for name in fields if name in SIZES}
-    return SizedBody(body, _measures(body, known | stated), person)
+    return SizedBody(body, _measures(body, known, stated), person)
 
 
 def body_of_file(body: Body, path: str, given: Mapping[str, Any] | None = None) -> SizedBody:
@@ -132,9 +132,15 @@ def _mass(known: Mapping[str, Measure]) -> Measure:
     return Measure(usual_mass(stature.value), "stature table", "usual for the stature")
 
 
-def _measures(body: Body, known: Mapping[str, Measure]) -> dict[str, Measure]:
-    """The origin of every size of a body."""
-    known = {"stature": _stature(known), "mass": _mass(known)} | dict(known)
+def _measures(body: Body, known: Mapping[str, Measure], stated: Mapping[str, Measure]) -> dict[str, Measure]:
+    """The origin of every size of a body.
+
+    Args:
+        body: The body.
+        known: What is known of the person and used; a stature or mass that it lacks follows from it alone.
+        stated: What the user gave.
+    """
+    known = {"stature": _stature(known), "mass": _mass(known), **known, **stated}
     origins = {name: known.get(name) or _by_table(name, known) for name in SIZES}
     return {name: origin._replace(value=getattr(body, name)) for name, origin in origins.items()}
 

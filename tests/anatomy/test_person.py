@@ -62,6 +62,14 @@ def test_the_command_line_wins_size_by_size_and_a_stature_over_all_lengths():
     assert sized_body(known, given={"mass": 40.0}).body.left_thigh == 0.30
 
 
+def test_a_mass_beside_a_stature_of_the_command_line_is_the_default_one_and_says_so():
+    found = sized_body(Person(), given={"stature": 1.9})
+    assert found.body == Body.from_stature(1.9)
+    assert found.measures["stature"].origin == "command line"
+    assert {found.measures[name].origin for name in ("mass", "left_thigh_mass")} == {"default"}
+    assert found.measures["left_thigh"].origin == "stature table"
+
+
 def test_the_stature_follows_from_the_legs_and_the_mass_from_the_stature():
     found = sized_body(person("model", **dict.fromkeys(LEGS, 0.4)))
     assert found.body.stature == pytest.approx(0.8 / LEG_PART, abs=1e-4)
