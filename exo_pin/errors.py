@@ -13,9 +13,10 @@ Only the command line turns them into one line and an exit code.
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "LimitError",
     "UnknownNameError",
     "hint",
+    "naming_file",
     "same_name",
 ]
 
@@ -111,6 +113,25 @@ class FormatError(GaitError):
         shown = str(path) if len(str(path)) <= _LONGEST_PATH else f"... {str(path)[-_LONGEST_PATH:]}"
         place = f"{shown}:{line}" if line is not None else shown
         super().__init__(f"{place}: {why}")
+
+
+@contextlib.contextmanager
+def naming_file(path: str | Path, *, line: int | None = None) -> Iterator[None]:
+    """Raise what is wrong with the data of a file as a `FormatError`, which names the file.
+
+    Args:
+        path: The file.
+        line: Where the data stand, or None where the whole file is meant.
+
+    Raises:
+        FormatError: The block raises a `GaitError`.
+    """
+    try:
+        yield
+    except FormatError:
+        raise
+    except GaitError as error:
+        raise FormatError(path, str(error), line=line) from error
 
 
 class LimitError(ExoPinError):

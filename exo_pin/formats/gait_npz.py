@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from exo_pin import files
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.metadata import MOST_EVENTS, Metadata, event_of, to_gait
 from exo_pin.formats.trial_file import TrialFile
@@ -92,13 +92,11 @@ class ArchiveFile(TrialFile):
         if len(columns) < len(names) or len(sizes) > 1 or sizes.pop() > MOST_EVENTS:
             raise FormatError(self.path, f"arrays {', '.join(names)} must be there together, equally long")
         self._numbers(names[0])
-        try:
+        with naming_file(self.path):
             return tuple(
                 event_of(time, str(kind), str(side), str(source))
                 for time, kind, side, source in zip(*columns, strict=True)
             )
-        except GaitError as error:
-            raise FormatError(self.path, str(error)) from error
 
 
 def open_archive(path: Path) -> ArchiveFile:

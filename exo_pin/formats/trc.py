@@ -12,7 +12,7 @@ import numpy as np
 
 from exo_pin.anatomy.names import LengthUnit
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
@@ -95,10 +95,8 @@ def open_trc(path: Path) -> TrcFile:
     if np.isnan(values[:, 1]).any():
         raise FormatError(path, "a frame without a time", line=first)
     remarks = _remarks(header, len(names), len(values))
-    try:
+    with naming_file(path):
         trial = Markers(values[:, 1], tuple(places), position, source=path.name, remarks=remarks, unit=unit)
-    except GaitError as error:
-        raise FormatError(path, str(error)) from error
     return TrcFile(path, trial)
 
 

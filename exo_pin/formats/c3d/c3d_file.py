@@ -13,7 +13,7 @@ import numpy as np
 from exo_pin.anatomy.names import AngleUnit, LengthUnit, SignPreset, Vertical
 from exo_pin.anatomy.person import Person
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.formats.c3d.content import C3dContent
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.joint_centres import measured_person
@@ -109,7 +109,7 @@ class C3dFile(TrialFile):
         span = float(time[0]), float(time[-1])
         found = foot_events(events.times, events.labels, events.contexts, span, step)
         header = [f"{len(events.labels)} events stand in the file's header"] if events.in_header else []
-        try:
+        with naming_file(self.path):
             return Markers(
                 time,
                 tuple(spatial),
@@ -129,8 +129,6 @@ class C3dFile(TrialFile):
                     *plates.remarks,
                 ),
             )
-        except GaitError as error:
-            raise FormatError(self.path, str(error)) from error
 
     @property
     def _metres(self) -> float | None:

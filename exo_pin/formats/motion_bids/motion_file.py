@@ -12,7 +12,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines, read_text
 from exo_pin.formats.c3d.event_words import kind_and_side
 from exo_pin.formats.motion_bids.file_names import EXPORTER, beside, is_motion_bids
@@ -101,10 +101,8 @@ class MotionBidsFile(TrialFile):
         if not points:
             raise FormatError(self.path, "holds no positions (channels POS x, y, z) of markers")
         position = np.stack([self._position(columns) for columns in points.values()], axis=1)
-        try:
+        with naming_file(self.path):
             return Markers(self._time(), tuple(points), position, source=self.path.name)
-        except GaitError as error:
-            raise FormatError(self.path, str(error)) from error
 
     def _unit(self, channel: str) -> str:
         return self.channels.unit[self.channels.name.index(channel)]

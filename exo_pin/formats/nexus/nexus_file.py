@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, model_angles
@@ -68,10 +68,8 @@ class NexusFile(TrialFile):
 
     @cached_property
     def _trial(self) -> Markers:
-        try:
+        with naming_file(self.path):
             return _trial(self.path, self.sections, self.exported)
-        except GaitError as error:
-            raise error if isinstance(error, FormatError) else FormatError(self.path, str(error)) from error
 
 
 def is_nexus(path: Path) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.formats.tables.numeric_table import NumericTable
 from exo_pin.formats.tables.pose_columns import pose_names, pose_values, read_poses
 from exo_pin.gait import Event, Gait
@@ -148,7 +148,7 @@ def to_gait(path: Path, time: Array, q: Array, base: Array | None, metadata: Met
         FormatError: The numbers are no walk.
     """
     source = path.name if metadata.source is None else metadata.source
-    try:
+    with naming_file(path):
         return Gait(
             time,
             q,
@@ -158,21 +158,16 @@ def to_gait(path: Path, time: Array, q: Array, base: Array | None, metadata: Met
             source=source,
             remarks=metadata.remarks,
         )
-    except GaitError as error:
-        raise FormatError(path, str(error)) from error
 
 
 def _event(path: Path, comment: Comment) -> Event:
     time, kind, side, source, *_ = [*comment.value.split(maxsplit=3), *[""] * 4]
     try:
-        return event_of(float(time), kind, side, _text(path, comment, source))
+        with naming_file(path, line=comment.line):
+            return event_of(float(time), kind, side, _text(path, comment, source))
     except ValueError as error:
         why = f"event {comment.value!r}: expected 'time kind side', e.g. '0.62 toe_off left'"
         raise FormatError(path, why, line=comment.line) from error
-    except FormatError:
-        raise
-    except GaitError as error:
-        raise FormatError(path, str(error), line=comment.line) from error
 
 
 def _truth(path: Path, comment: Comment) -> bool:

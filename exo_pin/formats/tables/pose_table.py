@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import FEET
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError, UnknownNameError
+from exo_pin.errors import FormatError, GaitError, UnknownNameError, naming_file
 from exo_pin.files import read_lines
 from exo_pin.formats.tables.csv_table import parse_csv, write_csv
 from exo_pin.formats.tables.metadata import Metadata, read_metadata
@@ -112,7 +112,7 @@ def load_poses(path: str | Path) -> Poses:
     source = path.name if metadata.source is None else metadata.source
     time = table.times(_TIME)
     even = even_clock(time)
-    try:
+    with naming_file(path):
         return Poses(
             time if even is None else even,
             base,
@@ -122,10 +122,6 @@ def load_poses(path: str | Path) -> Poses:
             source=source,
             remarks=() if even is None else (evened_remark(time, even),),
         )
-    except FormatError:
-        raise
-    except GaitError as error:
-        raise FormatError(path, str(error)) from error
 
 
 def _kept_within(events: Iterable[Event], even: Array) -> Iterator[Event]:

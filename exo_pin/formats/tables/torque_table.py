@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import SignPreset
 from exo_pin.arrays import Array
-from exo_pin.errors import FormatError, GaitError
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.formats.tables.csv_table import parse_csv
 from exo_pin.formats.tables.metadata import read_metadata
 from exo_pin.formats.tables.numeric_table import NumericTable
@@ -62,7 +62,5 @@ def to_torques(path: Path, time: Array, tau: Array, source: str) -> Torques:
     Raises:
         FormatError: The numbers are no torques.
     """
-    try:
+    with naming_file(path):
         return Torques(time, tau, source=source)
-    except GaitError as error:
-        raise FormatError(path, str(error)) from error
