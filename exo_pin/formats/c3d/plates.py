@@ -14,7 +14,7 @@ from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
 
 
 class FoundPlates(NamedTuple):
-    """Force plates, and what is left out of them, a sentence each."""
+    """Force plates, and what is changed or left out, a sentence each."""
 
     plates: tuple[ForcePlate, ...]
     remarks: tuple[str, ...]

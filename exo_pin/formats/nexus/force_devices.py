@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
+from exo_pin.formats.c3d.plates import FoundPlates
 from exo_pin.formats.nexus.sections import ExportedSection, Quantity
 from exo_pin.formats.units import is_newton, metres_per
 from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
@@ -14,14 +13,7 @@ _LOADED = 20.0
 """Vertical force from which a plate is loaded [N]."""
 
 
-class FoundDevices(NamedTuple):
-    """Force plates, and what is said of them, a sentence each."""
-
-    plates: tuple[ForcePlate, ...]
-    remarks: tuple[str, ...]
-
-
-def force_devices(section: ExportedSection) -> FoundDevices:
+def force_devices(section: ExportedSection) -> FoundPlates:
     """The force plates of a section: pairs of quantities with the axes Fx Fy Fz and Cx Cy Cz of one device.
 
     Nexus may export the force on the plate instead of that on the foot: where the plates are pressed upwards,
@@ -52,7 +44,7 @@ def force_devices(section: ExportedSection) -> FoundDevices:
             remarks.append(f"device {name[:60]}: the file has the force on the plate; the sign is turned")
         point = metres * at.values[:, :3]
         plates.append(ForcePlate(name, time, force, point, np.zeros_like(force)))
-    return FoundDevices(tuple(plates), tuple(remarks))
+    return FoundPlates(tuple(plates), tuple(remarks))
 
 
 def _axes(quantity: Quantity, letter: str) -> bool:
