@@ -42,7 +42,26 @@ def read_lines(path: str | Path) -> list[str]:
 def read_text(path: str | Path) -> str:
     """A UTF-8 text file with Unix line ends and no control characters; errors as in `read_lines`."""
     path = Path(path)
-    return _decoded(path, read_bytes(path)).replace("\r\n", "\n").replace("\r", "\n")
+    return _unix(_decoded(path, read_bytes(path)))
+
+
+def first_lines(path: Path, size: int) -> list[str]:
+    """The lines in the first bytes of a file, as far as they are text; none where it cannot be read.
+
+    For recognising a format; the last line may be cut.
+
+    Args:
+        path: The file.
+        size: How much is read [bytes].
+    """
+    try:
+        if not path.is_file():  # opening a pipe would wait for its writer
+            return []
+        with path.open("rb") as file:
+            head = file.read(size)
+    except (OSError, ValueError):  # ValueError: a path with a zero byte in it
+        return []
+    return _unix(head.decode("utf-8-sig", "replace")).split("\n")
 
 
 def read_bytes(path: str | Path) -> bytes:
@@ -64,6 +83,11 @@ def read_bytes(path: str | Path) -> bytes:
     if len(data) > LARGEST_FILE:
         raise FormatError(path, f"larger than {LARGEST_FILE // 2**20} MiB; split or resample the recording")
     return data
+
+
+def _unix(text: str) -> str:
+    """The text with the line ends of Unix."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _decoded(path: Path, data: bytes) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, naming_file
-from exo_pin.files import read_lines
+from exo_pin.files import first_lines, read_lines
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, model_angles
 from exo_pin.formats.nexus.force_devices import force_devices
@@ -74,12 +74,7 @@ class NexusFile(TrialFile):
 
 def is_nexus(path: Path) -> bool:
     """Whether the first line of a text that is not empty is a section's title."""
-    try:
-        with path.open("rb") as file:
-            head = file.read(_HEAD)
-    except (OSError, ValueError):
-        return False
-    lines = head.decode("utf-8-sig", "replace").replace("\r", "\n").split("\n")
+    lines = first_lines(path, _HEAD)
     first = next((line for line in lines if line.strip(' ,;"\t')), "")
     return title_of(first) is not None
 

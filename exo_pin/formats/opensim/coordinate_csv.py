@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from exo_pin.files import read_lines
+from exo_pin.files import first_lines, read_lines
 from exo_pin.formats.opensim.coordinate_names import LEG_COORDINATES
 from exo_pin.formats.opensim.coordinates import coordinates_gait
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.opensim.storage_file import StorageFile
 from exo_pin.formats.read_options import ReadOptions
+from exo_pin.formats.tables.column_mapping import cells_of
 from exo_pin.formats.tables.numeric_table import is_number, parse
 from exo_pin.formats.tables.table_file import TableFile
 from exo_pin.gait import Gait
@@ -39,12 +40,7 @@ class CoordinateCsv(StorageFile):
 
 def is_coordinate_csv(path: Path) -> bool:
     """Whether the first line names the time and coordinates of the legs."""
-    try:
-        with path.open("rb") as file:
-            head = file.read(_HEAD).decode("utf-8-sig", "replace")
-    except (OSError, ValueError):
-        return False
-    names = set(_names(head.replace("\r", "\n").partition("\n")[0]))
+    names = {name for line in first_lines(path, _HEAD)[:1] for name in cells_of(line, ",")}
     return "time" in names and len(names & {*LEG_COORDINATES, *(f"{n}/value" for n in LEG_COORDINATES)}) > 1
 
 
@@ -55,10 +51,6 @@ def open_coordinate_csv(path: Path) -> CoordinateCsv:
         FormatError: Ragged rows, cells that are no number.
     """
     lines = read_lines(path)
-    names = [name or f"unnamed {k}" for k, name in enumerate(_names(lines[0]))]
+    names = [name or f"unnamed {k}" for k, name in enumerate(cells_of(lines[0], ","))]
     table = parse(path, names, lines[1:], first=2, delimiter=",", gaps=True, repeated=True)
     return CoordinateCsv(path, Storage("Coordinates", {}, [], table), lines)
-
-
-def _names(line: str) -> list[str]:
-    return [name.strip().strip('"') for name in line.split(",")]
