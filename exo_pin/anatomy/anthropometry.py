@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exo_pin.anatomy.names import Movement
+from exo_pin.anatomy.names import Movement, Sex
 
 LENGTHS = {"thigh": 0.245, "shank": 0.246, "foot_length": 0.152}
 """Segment length / stature, Drillis & Contini 1966."""
@@ -101,3 +101,23 @@ LIMITS_DEG: dict[Movement, tuple[float, float]] = {
 }
 """Joint limits [deg], a design choice within clinical ranges of motion; the knee's 0 is a mechanical stop,
 which makes the answer of inverse kinematics unique."""
+
+
+def average_sizes(stature: float, mass: float, sex: Sex) -> dict[str, float]:
+    """Sizes of the body [m] and masses of a leg [kg] by name, the same left and right.
+
+    They are rounded to a micrometre and a milligram, so that files and URDF show plain numbers.
+
+    Args:
+        stature: Height of the person [m].
+        mass: Mass of the person [kg].
+        sex: `"male"` or `"female"`.
+    """
+    lengths = LENGTHS | DESIGN_LENGTHS
+    names = ("thigh", "shank", "ankle_height", "foot_length", "foot_width", "hip_width")
+    average = {name: lengths[name] * stature for name in names}
+    average["heel"] = HEEL_FRACTION * average["foot_length"]
+    average["ball"] = BALL_FRACTION * average["foot_length"]
+    average["waist_width"] = HIP_BREADTH * stature + WAIST_CLEARANCE
+    average |= {f"{name}_mass": DE_LEVA[sex][name].mass * mass for name in ("thigh", "shank", "foot")}
+    return {name: round(value, 6) for name, value in average.items()}

@@ -112,7 +112,7 @@ class Body:
             UnknownNameError: An override or the sex is unknown.
         """
         _check_sex(sex)
-        average = _average(checked("stature", stature), checked("mass", mass), sex)
+        average = anthropometry.average_sizes(checked("stature", stature), checked("mass", mass), sex)
         return cls(stature=stature, mass=mass, sex=sex, **(both_sides(average) | both_sides(overrides)))
 
     @classmethod
@@ -227,20 +227,6 @@ def both_sides(values: Mapping[str, Any]) -> dict[str, Any]:
             raise UnknownNameError("size of the body", name, [*known, *LEG_SIZES])
     spread = {f"{side}_{name}": v for name, v in values.items() if name in LEG_SIZES for side in SIDES}
     return spread | {name: v for name, v in values.items() if name in known}
-
-
-def _average(stature: float, mass: float, sex: Sex) -> dict[str, float]:
-    """Sizes rounded to a micrometre and masses to a milligram, so that files and URDF show plain numbers."""
-    lengths = anthropometry.LENGTHS | anthropometry.DESIGN_LENGTHS
-    names = ("thigh", "shank", "ankle_height", "foot_length", "foot_width", "hip_width")
-    average = {name: lengths[name] * stature for name in names}
-    average["heel"] = anthropometry.HEEL_FRACTION * average["foot_length"]
-    average["ball"] = anthropometry.BALL_FRACTION * average["foot_length"]
-    average["waist_width"] = anthropometry.HIP_BREADTH * stature + anthropometry.WAIST_CLEARANCE
-    average |= {
-        f"{name}_mass": anthropometry.DE_LEVA[sex][name].mass * mass for name in ("thigh", "shank", "foot")
-    }
-    return {name: round(value, 6) for name, value in average.items()}
 
 
 def _check_sex(sex: object) -> None:
