@@ -16,8 +16,10 @@ from exo_pin.errors import FormatError
 from exo_pin.files import read_lines
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.metadata import Metadata, to_gait
+from exo_pin.formats.tables.numeric_table import refuse_length
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Event, Gait
+from exo_pin.safe import plain_numbers
 
 _CURVES: Mapping[Movement, str] = MappingProxyType(
     {
@@ -34,8 +36,6 @@ Model writes them); ankle Y, inversion, is not in the format."""
 
 _FEWEST, _MOST = 11, 10_001
 """Points of a cycle; 51 (every 2 %) is usual."""
-
-_MOST_LINES = 1_000_000
 
 _LONGEST = 20.0
 """Of a stride [s]."""
@@ -154,10 +154,11 @@ def open_gcd(path: Path) -> GaitCycleFile:
         FormatError: With file, line and reason.
     """
     lines = read_lines(path)
-    if not any(line.startswith("!") for line in lines[:_MOST_LINES]):
+    refuse_length(path, len(lines))
+    if not any(line.startswith("!") for line in lines):
         raise FormatError(path, "no line '!Name'; expected gait cycle data (.gcd)")
     variables, rows, known = dict[str, list[float]](), list[float](), False
-    for number, line in enumerate(lines[:_MOST_LINES], 1):
+    for number, line in enumerate(lines, 1):
         words = line.split()
         if not words or words[0].startswith("#"):
             continue
@@ -176,7 +177,7 @@ def open_gcd(path: Path) -> GaitCycleFile:
 def _value(path: Path, words: Sequence[str], line: int) -> float:
     """The mean, the first number of a line."""
     try:
-        value = float(words[0])
+        value = plain_numbers.number(words[0])
     except ValueError:
         raise FormatError(path, f"{words[0][:40]!r} is no number", line=line) from None
     if not abs(value) < 1e9:

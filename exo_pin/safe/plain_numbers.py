@@ -9,11 +9,19 @@ def number(text: str) -> float:
     """The number of a text.
 
     Raises:
-        ValueError: It is none, or one that Python alone reads: `0.4_1`, digits of other scripts.
+        ValueError: It holds none, or one that Python alone reads: `0.4_1`, digits of other scripts.
     """
     if "_" in text or not text.isascii():
         raise ValueError("no number")
     return float(text)
+
+
+def number_or_nan(text: str) -> float:
+    """The number of a text; NaN where it holds none."""
+    try:
+        return number(text)
+    except ValueError:
+        return math.nan
 
 
 def finite(text: str, count: int | None = None) -> list[float]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
+from exo_pin.safe.plain_numbers import number_or_nan
 
 TITLES = ("Model Outputs", "Trajectories", "Devices", "Events", "Joints", "Segments", "Global Model Outputs")
 """First cell of a section's first line."""
@@ -112,7 +113,7 @@ def _section(path: Path, title: str, body: Sequence[str], line: int) -> Exported
     if len(body) < _HEADER or not rows:
         raise FormatError(path, f"section {title} has no rows below its names, axes and units", line=line)
     separator = _separator(body[3])
-    rate = _number(_cells(body[1], separator)[0])
+    rate = number_or_nan(_cells(body[1], separator)[0])
     if not 0 < rate <= 1e5:
         shown = body[1].strip()[:20]
         raise FormatError(path, f"section {title}: {shown!r} is no rate in Hz", line=line + 1)
@@ -151,20 +152,16 @@ def _row(path: Path, text: str, separator: str, width: int, line: int) -> list[f
     if len(cells) > width and any(cells[width:]):
         raise FormatError(path, f"{len(cells)} values, but the line of axes has {width}", line=line)
     cells = [*cells[:width], *[""] * (width - len(cells))]
-    row = [
-        _number(cell if separator == "," else cell.replace(",", ".")) if cell else np.nan for cell in cells
-    ]
+    row = [_number(cell, separator) for cell in cells]
     for cell, value in zip(cells, row, strict=True):
         if cell and not abs(value) < _LARGEST and cell.lower() != "nan":
             raise FormatError(path, f"{cell[:40]!r} is no number", line=line)
     return row
 
 
-def _number(cell: str) -> float:
-    try:
-        return float(cell) if "_" not in cell else float("nan")
-    except ValueError:
-        return float("nan")
+def _number(cell: str, separator: str) -> float:
+    """A number, with a decimal comma where commas do not separate cells; NaN where it holds none."""
+    return number_or_nan(cell if separator == "," else cell.replace(",", "."))
 
 
 def _events(path: Path, body: Sequence[str], line: int) -> list[ExportedEvent]:
@@ -187,7 +184,5 @@ def _events(path: Path, body: Sequence[str], line: int) -> list[ExportedEvent]:
         cells = _cells(text, separator)
         if len(cells) > max(places) and any(cells):
             context, name, time = (cells[k] for k in places)
-            out.append(
-                ExportedEvent(context, name, _number(time.replace(",", ".") if separator != "," else time))
-            )
+            out.append(ExportedEvent(context, name, _number(time, separator)))
     return out

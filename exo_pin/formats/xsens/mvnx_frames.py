@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
@@ -11,6 +11,7 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
+from exo_pin.safe.plain_numbers import number_or_nan
 from exo_pin.safe.xml_reader import XmlLimits, load_xml
 
 _UNUSED = (
@@ -69,20 +70,20 @@ def read_frames(path: Path) -> MvnxFrames:
         FormatError: With file and reason: no XML, no frames with joint angles, frames that differ in size.
     """
     root = load_xml(path, _LIMITS)
-    subject = next(_named(root, "subject"), None)
+    subject = next(root.iter("subject"), None)
     if root.tag != "mvnx" or subject is None:
         raise FormatError(path, "no .mvnx file: expected <mvnx> with a <subject>")
-    frames = [frame for frame in _named(subject, "frame") if frame.get("type", "normal") == "normal"]
+    frames = [frame for frame in subject.iter("frame") if frame.get("type", "normal") == "normal"]
     if len(frames) < 2:
         raise FormatError(path, f"{len(frames)} frames of type normal; a walk has at least 2")
-    names = [joint.get("label", "") for joint in _named(subject, "joint")] or list(_STANDARD_JOINTS)
+    names = [joint.get("label", "") for joint in subject.iter("joint")] or list(_STANDARD_JOINTS)
     angles = _numbers(path, frames, "jointAngle", 3 * len(names))
     if angles is None:
         raise FormatError(path, "no <jointAngle> in its frames; export the joint angles in MVN")
-    segments = [segment.get("label", "") for segment in _named(subject, "segment")] or ["Pelvis"]
+    segments = [segment.get("label", "") for segment in subject.iter("segment")] or ["Pelvis"]
     first = segments.index("Pelvis") if "Pelvis" in segments else 0
     turn, place = (_numbers(path, frames, name, None) for name in ("orientation", "position"))
-    version = next(_named(root, "mvn"), root).get("version", "")
+    version = next(root.iter("mvn"), root).get("version", "")
     return MvnxFrames(
         _times(path, subject, frames),
         {name: angles[:, 3 * k : 3 * k + 3] for k, name in enumerate(names)},
@@ -91,11 +92,6 @@ def read_frames(path: Path) -> MvnxFrames:
         _contacts(path, subject, frames),
         version if version.isprintable() else "",
     )
-
-
-def _named(element: Element, name: str) -> Iterator[Element]:
-    """Elements of that name within another; the names have no prefix in any known file."""
-    return element.iter(name)
 
 
 def _numbers(path: Path, frames: Sequence[Element], name: str, width: int | None) -> Array | None:
@@ -130,24 +126,18 @@ def _part(values: Array | None, k: int, width: int) -> Array | None:
 
 def _times(path: Path, subject: Element, frames: Sequence[Element]) -> Array:
     """`(n,)` seconds: by the frames' numbers and the rate, which are exact, else by their milliseconds."""
-    rate, indices = _number(subject.get("frameRate")), [_number(frame.get("index")) for frame in frames]
+    rate = number_or_nan(subject.get("frameRate", ""))
+    indices = [number_or_nan(frame.get("index", "")) for frame in frames]
     if 0 < rate <= 1e5 and np.isfinite(indices).all() and (np.diff(indices) > 0).all():
         return np.array(indices) / rate
-    times = np.array([_number(frame.get("time")) for frame in frames]) / 1000
+    times = np.array([number_or_nan(frame.get("time", "")) for frame in frames]) / 1000
     if not np.isfinite(times).all():
         raise FormatError(path, "its frames have neither numbers (index) at a frameRate nor times in ms")
     return times
 
 
-def _number(text: str | None) -> float:
-    try:
-        return float(text or "nan")
-    except ValueError:
-        return float("nan")
-
-
 def _contacts(path: Path, subject: Element, frames: Sequence[Element]) -> dict[str, Array]:
     """Which points of the feet touch the ground, where the file defines and has them."""
-    names = [found.get("label", "") for found in _named(subject, "contactDefinition")]
+    names = [found.get("label", "") for found in subject.iter("contactDefinition")]
     values = _numbers(path, frames, "footContacts", len(names)) if names else None
     return {} if values is None else {name: values[:, k] for k, name in enumerate(names)}
