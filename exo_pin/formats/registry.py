@@ -162,9 +162,8 @@ def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
     special = _recognised(path, _ALL)
     if special or entry.recognises is None:
         return (special or entry).open(path)
-    return FORMATS[path.suffix.lower()].open(
-        path
-    )  # the ending of a format that can hold this, not the format
+    # the ending is that of a format that can hold this, the file is not of that format
+    return FORMATS[path.suffix.lower()].open(path)
 
 
 def written_format(path: Path) -> Format:

@@ -15,7 +15,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines, read_text
 from exo_pin.formats.c3d.event_words import kind_and_side
-from exo_pin.formats.motion_bids.file_names import EXPORTER, beside, is_motion_bids
+from exo_pin.formats.motion_bids.file_names import EXPORTER, beside
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.column_mapping import Header, column_mapping
 from exo_pin.formats.tables.metadata import MOST_EVENTS, Metadata, to_gait
@@ -25,8 +25,6 @@ from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.units import metres_per, radians_per
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import Markers
-
-__all__ = ["MotionBidsFile", "is_motion_bids", "open_motion_bids"]
 
 _REQUIRED = ("name", "component", "type", "tracked_point", "units")
 """Columns of `*_channels.tsv` that BIDS demands."""
