@@ -83,6 +83,7 @@ def _whole(lab, path, walk):
         ("!LeftHipFlexExt\n", "!LeftHipFlexExt\n1\n", "51 to 52 points"),
         ("!LeftHipFlexExt\n", "!LeftHipFlexExt\n1e308\n", "finite"),
         ("!LeftHipFlexExt\n", "!LeftHipFlexExt\nx\n", "no number"),
+        ("!LeftHipFlexExt\n", "!LeftHipFlexExt\n1_0\n", "no number"),
         ("!LeftHipFlexExt\n", "!LeftHipFlexExt\n999 ", "half a turn"),
         ("!LeftHipRotation", "!LeftHipFlexExt", "occurs twice"),
     ],
