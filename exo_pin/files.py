@@ -20,7 +20,7 @@ _CONTROL = re.compile("[\0-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 
 def control_character(text: str) -> str:
-    """The first control character of a text as its code, e.g. `U+001B`; empty where there is none."""
+    """The first control character of a text as its code, e.g. `U+001B`; empty if it has none."""
     found = _CONTROL.search(text)
     return f"U+{ord(found[0]):04X}" if found else ""
 

@@ -58,7 +58,7 @@ def _around(file: Path, name: str) -> Iterator[Path]:
 
 
 def _manifest_name(folder: Path) -> str:
-    """The name of the package that lies in a folder, by its package.xml; empty where there is none."""
+    """The name of the package that lies in a folder, by its package.xml; empty without one."""
     try:
         with (folder / "package.xml").open(encoding="utf-8", errors="replace") as file:
             found = re.search(r"<name>\s*([\w-]+)\s*</name>", file.read(_MANIFEST))

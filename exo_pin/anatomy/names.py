@@ -47,7 +47,7 @@ SizeOrigin = Literal[
     "mass table",
     "default",
 ]
-"""Where a size of a body comes from; `exo_pin.anatomy.person.Measure.said` has the details."""
+"""Where a size of a body comes from; `exo_pin.anatomy.person.Measure.detail` has more."""
 AngleUnit = Literal["deg", "rad"]
 LengthUnit = Literal["mm", "cm", "m"]
 Vertical = Literal["+x", "+y", "+z", "-x", "-y", "-z"]

@@ -39,12 +39,12 @@ class Measure(NamedTuple):
     Attributes:
         value: In metres or kilograms.
         origin: Where it comes from.
-        said: The same in detail, in words.
+        detail: The same in words, with the source.
     """
 
     value: float
     origin: SizeOrigin
-    said: str = ""
+    detail: str = ""
 
 
 @dataclass(frozen=True)
@@ -197,4 +197,4 @@ def _names(sides: Iterable[Side]) -> list[str]:
 
 
 def _words(measure: Measure) -> str:
-    return measure.said or measure.origin
+    return measure.detail or measure.origin

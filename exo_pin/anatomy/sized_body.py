@@ -95,8 +95,8 @@ def _both_legs(sizes: Mapping[str, Measure]) -> dict[str, Measure]:
         for name in LEG_SIZES:
             other = sizes.get(f"{_OTHER_SIDE[side]}_{name}")
             if f"{side}_{name}" not in sizes and other is not None:
-                said = f"as the {_OTHER_SIDE[side]} one" + (f": {other.said}" if other.said else "")
-                out[f"{side}_{name}"] = other._replace(said=said)
+                detail = f"as the {_OTHER_SIDE[side]} one" + (f": {other.detail}" if other.detail else "")
+                out[f"{side}_{name}"] = other._replace(detail=detail)
     return out
 
 
@@ -118,9 +118,9 @@ def _stature(known: Mapping[str, Measure]) -> Measure:
     leg = Person(known).hip_to_ankle
     if leg is None:
         return Measure(DEFAULT_STATURE, "default", "nothing states it")
-    said = "by the legs from hip to ankle (Drillis & Contini 1966)"
+    detail = "by the legs from hip to ankle (Drillis & Contini 1966)"
     thigh = next(known[name] for name in ("left_thigh", "right_thigh") if name in known)
-    return Measure(leg / LEG_PART, thigh.origin, said)
+    return Measure(leg / LEG_PART, thigh.origin, detail)
 
 
 def _mass(known: Mapping[str, Measure]) -> Measure:

@@ -150,7 +150,7 @@ def assignment(text: str, *, sign: str = "=") -> tuple[str, Any]:
 
 
 def _measure_to_json(measure: Measure, name: str) -> dict[str, Any]:
-    return {"value": measure.value, "unit": _unit(name), "origin": measure.origin, "said": measure.said}
+    return {"value": measure.value, "unit": _unit(name), "origin": measure.origin, "said": measure.detail}
 
 
 def _unit(name: str) -> str:

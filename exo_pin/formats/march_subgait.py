@@ -118,7 +118,7 @@ def _by_joint(path: Path, content: object) -> dict[str, list[Any]]:
 
 
 def _transposed(content: object) -> dict[str, list[Any]]:
-    """The set points by joint of a JointTrajectory; empty where there is none."""
+    """The set points by joint of a JointTrajectory; empty where the content is no such message."""
     found = content.get("trajectory") if isinstance(content, dict) else None
     message = found if isinstance(found, dict) else {}
     names, points = message.get("joint_names"), message.get("points")

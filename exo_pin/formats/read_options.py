@@ -12,7 +12,7 @@ from exo_pin.errors import FormatError
 
 
 class ReadOptions(NamedTuple):
-    """What the user adds to the content of a file; each option is None or empty where the file decides.
+    """What the user adds to the content of a file, which decides where an option is None or empty.
 
     Attributes:
         preset: Name of a sign convention, one of `PRESETS`.

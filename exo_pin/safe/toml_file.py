@@ -69,11 +69,8 @@ def read(path: str | Path) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         why = " ".join(str(error).split())[:200]
         raise FormatError(path, f"is not TOML: {why}") from None
-    except (
-        ValueError,
-        RecursionError,
-    ):  # a number of thousands of digits, a date that is none, deep brackets
-        raise FormatError(path, "is not TOML: brackets too deep, or a number or date that is none") from None
+    except (ValueError, RecursionError):  # a number of thousands of digits, an impossible date, deep brackets
+        raise FormatError(path, "is not TOML: brackets too deep, or an invalid number or date") from None
     _judge(path, "", values, 0)
     return values
 

@@ -110,7 +110,14 @@ class _Reader:
             self.tree.end(tag)
 
     def doctype(self, name: str, system: str | None, public: str | None, has_subset: int) -> None:
-        """A document type may name a file, which is not read; what it defines itself could be entities."""
+        """A document type may name a file, which is not read; what it defines itself could be entities.
+
+        Args:
+            name: Of the root element.
+            system: The file that it names.
+            public: Its public name.
+            has_subset: Whether it defines anything itself.
+        """
         if has_subset:
             self.refuse(
                 "has a document type with definitions (<!DOCTYPE [...]>), which are not read; remove it"

@@ -117,7 +117,13 @@ def _names(nodes: Iterable[ast.AST]) -> Iterator[str]:
 
 
 def restrict(xacro: Any, substitution_args: Any, reach: _Reach) -> None:
-    """Replace the parts of xacro that read files and evaluate expressions by careful ones."""
+    """Replace the parts of xacro that read files and evaluate expressions by careful ones.
+
+    Args:
+        xacro: The package.
+        substitution_args: Its module, which evaluates `$(...)`.
+        reach: What may be read.
+    """
     from exo_pin.safe.xml_reader import XmlLimits, load_xml
 
     few = {name: getattr(builtins, name) for name in _BUILTINS.split()}
@@ -129,20 +135,20 @@ def restrict(xacro: Any, substitution_args: Any, reach: _Reach) -> None:
             load_xml(Path(whole), XmlLimits(mebibytes=8, elements=50_000))
         return own_parse(text, filename)
 
-    def safe_eval(expression: str, symbols: dict[str, Any], local: Any = None) -> Any:
+    def _safe_eval(expression: str, symbols: dict[str, Any], local: Any = None) -> Any:
         symbols.update(__builtins__={})
         return eval(judged(expression), symbols, local)
 
-    def evaluate(expression: str, _: object, local: Any) -> Any:
+    def _evaluate(expression: str, _: object, local: Any) -> Any:
         return eval(judged(expression), {"__builtins__": few}, local)
 
-    xacro.parse, xacro.safe_eval = parse, safe_eval
-    substitution_args.eval, substitution_args._eval_find = evaluate, reach.package
+    xacro.parse, xacro.safe_eval = parse, _safe_eval
+    substitution_args.eval, substitution_args._eval_find = _evaluate, reach.package
     sys.addaudithook(reach.hook)
 
 
 def answer(path: Path) -> tuple[str, str]:
-    """The URDF's text, or why there is none."""
+    """The URDF's text and "", or "" and the reason of the failure."""
     import glob  # noqa: F401 - loaded before files are judged, as is what xacro imports late
 
     import xacro
@@ -168,7 +174,7 @@ def answer(path: Path) -> tuple[str, str]:
 
 
 def main() -> None:
-    """Arguments: file, megabytes, seconds. Writes the text, and the reason if there is none, as JSON."""
+    """Arguments: file, megabytes, seconds. Writes what `answer` returns as JSON."""
     path, megabytes, seconds = sys.argv[1:]
     pipe = os.dup(1)
     nowhere = io.StringIO()  # xacro reports on the console

@@ -83,7 +83,7 @@ def test_the_stature_follows_from_the_legs_and_the_mass_from_the_stature():
 def test_a_leg_of_which_nothing_is_known_is_as_long_as_the_other():
     found = sized_body(person(stature=1.7, left_thigh=0.45, left_shank=0.40))
     assert (found.body.right_thigh, found.body.right_shank) == (0.45, 0.40)
-    assert found.measures["right_thigh"].said.startswith("as the left one")
+    assert found.measures["right_thigh"].detail.startswith("as the left one")
 
 
 @pytest.mark.parametrize(

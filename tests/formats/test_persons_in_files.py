@@ -61,7 +61,7 @@ def test_each_leg_has_its_own_clinical_length():
         "left_leg_length": 0.88,
         "right_leg_length": 0.91,
     }
-    assert "Davis 1991" in found.sizes["left_thigh"].said
+    assert "Davis 1991" in found.sizes["left_thigh"].detail
 
 
 def test_lengths_between_joint_centres_go_before_the_clinical_length():

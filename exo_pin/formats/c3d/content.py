@@ -53,7 +53,7 @@ class C3dContent:
     Attributes:
         time: `(n,)` of the frames [s].
         columns: Name of a point or model output, without a subject's prefix -> its column in `points`.
-        points: `(3, k, n)` points and model outputs; 0, 0, 0 where there is none.
+        points: `(3, k, n)` points and model outputs; 0, 0, 0 where they are missing.
         angles: Names of model angles that the parameters list.
         outputs: Names of forces, moments, powers and scalars.
         length_unit: Unit of points, or None where the file does not state one.

@@ -31,7 +31,7 @@ class C3dParameters:
         return tuple(text for key in _continued(name) for text in self.texts.get(key, ()))
 
     def text(self, name: str) -> str | None:
-        """The first text of a parameter, or None where there is none."""
+        """The first text of a parameter, or None if it has no text."""
         return next(iter(self.texts.get(name, ())), None)
 
     def all_numbers(self, name: str) -> Array:
@@ -41,7 +41,7 @@ class C3dParameters:
         return np.concatenate(same, axis=1) if same else np.zeros((2, 0))
 
     def number(self, name: str) -> float | None:
-        """The first number of a parameter, or None where there is none that is finite."""
+        """The first number of a parameter, or None if it is missing or not finite."""
         values = self.numbers.get(name, np.zeros(0)).ravel(order="F")
         return float(values[0]) if values.size and np.isfinite(values[0]) else None
 

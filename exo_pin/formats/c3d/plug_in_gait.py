@@ -74,7 +74,7 @@ def model_angles(path: Path, trial: Markers) -> Gait:
 
 
 def joint_moments(path: Path, content: C3dContent, preset: SignPreset | None, mass: float | None) -> Torques:
-    """Torques by the moments of hip, knee and ankle; there is none of ankle inversion.
+    """Torques by the moments of hip, knee and ankle; Plug-in Gait has no moment of ankle inversion.
 
     Args:
         path: The file, for messages.

@@ -65,14 +65,14 @@ def stated_person(parameters: C3dParameters) -> Person:
     for group, name, value in _first_values(parameters):
         for key, quantity in _matching(name):
             if key not in found:
-                said, measure = f"{group}:{_shown(name)} {value:g}", _measure(value, quantity)
+                detail, measure = f"{group}:{_shown(name)} {value:g}", _measure(value, quantity)
                 if measure is None:
                     accepted = f"{quantity.low:g} .. {quantity.high:g} {quantity.unit} is accepted"
-                    remarks.append(f"{said} is no person's and is not used; {accepted}")
+                    remarks.append(f"{detail} is no person's and is not used; {accepted}")
                     continue
-                found[key] = Measure(measure[0], "file's header", f"{said} {measure[1]}")
+                found[key] = Measure(measure[0], "file's header", f"{detail} {measure[1]}")
                 if measure[1] not in ("mm", "kg"):
-                    remarks.append(f"{said} is taken as {measure[1]}; in mm it would be no person's")
+                    remarks.append(f"{detail} is taken as {measure[1]}; in mm it would be no person's")
     subjects = int(parameters.number("SUBJECTS:USED") or 1)
     if subjects > 1 and found:
         remarks.append(f"{subjects} subjects are in the file; sizes of the body are the first one's")
@@ -126,11 +126,11 @@ def _add_segments(found: dict[str, Measure], side: str) -> None:
         return
     whole = hip_to_ankle(clinical.value)
     for name, part in (("thigh", _THIGH_PART), ("shank", 1 - _THIGH_PART)):
-        said = (
-            f"{clinical.said} from front spine to malleolus, less the hip's depth (Davis 1991), "
+        detail = (
+            f"{clinical.detail} from front spine to malleolus, less the hip's depth (Davis 1991), "
             f"{100 * part:.1f} % of it (Drillis & Contini 1966)"
         )
-        found[f"{side}_{name}"] = clinical._replace(value=part * whole, said=said)
+        found[f"{side}_{name}"] = clinical._replace(value=part * whole, detail=detail)
 
 
 def _shown(name: str) -> str:

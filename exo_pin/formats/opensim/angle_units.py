@@ -20,7 +20,7 @@ _MOVES = 0.2
 
 
 def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None) -> tuple[bool, list[str]]:
-    """Whether angles are in degrees, and what of it must be said.
+    """Whether angles are in degrees, and remarks on how that is known.
 
     The user's word wins over the header; numbers that no leg reaches in radians win over a header that
     states radians, or nothing. A header that states degrees above a leg that turns by no more than half a
@@ -33,7 +33,7 @@ def in_degrees(table: NumericTable, keys: Mapping[str, str], chosen: str | None)
 
     Raises:
         FormatError: Nothing states the unit, or the numbers contradict it.
-        UnknownNameError: The user's unit is none.
+        UnknownNameError: The user's unit does not exist.
     """
     name, largest, moves = _largest(table)
     reached = f"{name} reaches {largest:.3g}"

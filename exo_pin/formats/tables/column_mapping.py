@@ -64,7 +64,7 @@ class Header(NamedTuple):
             row_rate: Rows per second [Hz] that the user gave.
 
         Raises:
-            FormatError: There is none and no rate, or both.
+            FormatError: There is neither such a column nor a rate, or both.
         """
         mapped = [column for column, name in mapping.items() if name == _TIME]
         found = mapped or [name for name in self.names if name.lower() in _TIME_NAMES]

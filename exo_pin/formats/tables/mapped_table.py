@@ -56,7 +56,13 @@ def mapped_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
 
 
 def positional_gait(path: Path, lines: Sequence[str], options: ReadOptions) -> Gait:
-    """The walk in a table without column names, by the options' columns; else as `mapped_gait`."""
+    """The walk in a table without column names; errors as in `mapped_gait`.
+
+    Args:
+        path: The file, for messages.
+        lines: Its lines.
+        options: What each column is, and all that `mapped_gait` takes.
+    """
     options.refuse(path, "preset", why="its columns are named by position")
     mapping = positional_mapping(path, options.columns) | dict(options.mapping)
     refuse_length(path, len(lines))

@@ -1,4 +1,4 @@
-"""Numeric tables of text: named columns of numbers, with the line at fault where one is none."""
+"""Numeric tables of text: named columns of numbers, with the line at fault where a cell holds no number."""
 
 from __future__ import annotations
 
