@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.anatomy import FEET, SIDES
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.ground.stance import Intervals, lowest_corners, standing
+from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.kinematics.stance_slide import sole_slide
 
 
@@ -75,7 +76,7 @@ def in_mm(metres: float) -> str:
 
 def _slide(gait: Gait, feet: Array, alone: Mask, belt_speed: float) -> tuple[float, float]:
     """Slides over the belt of the feet that stand alone `(n, 2)`, along and sideways [m]."""
-    time, points = gait.time, feet.reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball
+    time, points = gait.time, heels_and_balls(feet)
     if gait.periodic:  # a single support may go on in the next cycle
         time = np.concatenate([time, time + gait.duration])
         points, alone = np.concatenate([points, points]), np.concatenate([alone, alone])

@@ -13,7 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.gait.trial import UP_AXES, Markers, to_z_up
-from exo_pin.kinematics.walk_numbers import sole_points
+from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
 _HEELS = ("HEE", "HEEL", "CALC", "CAL", "CALCANEUS", "CA", "HEELMARKER", "CALCSTUDY")

@@ -16,7 +16,7 @@ from exo_pin.gait import Event, Gait, force_plates
 from exo_pin.gait.event import EVENT_KINDS
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.kinematics.sole_contact import with_events
-from exo_pin.kinematics.walk_numbers import sole_points
+from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
 _FARTHEST = 0.3

@@ -18,6 +18,7 @@ from exo_pin.gait.stride_checks import Feet
 from exo_pin.gait.strides import strides, turns_of
 from exo_pin.gait.walking_bouts import walking_events
 from exo_pin.kinematics.motion import poses
+from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.robot import Robot
 
 TOUCH_HEIGHT = 0.01
@@ -91,8 +92,8 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     base = robot.base_of(gait)
     T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
     heading = headings(T[:, 0])
-    soles = T[:, 1:, :3, 3].reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3)  # heel and ball of each foot
-    height = _recorded_height(gait)
+    soles = heels_and_balls(T[:, 1:, :3, 3])
+    height = recorded_height(gait)
     upright = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
     runner = Runner(upright, gait.q[:, _KNEES], height)
     if gait.base is None:
@@ -111,7 +112,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     return found
 
 
-def _recorded_height(gait: Gait) -> Array | None:
+def recorded_height(gait: Gait) -> Array | None:
     """`(n,)` height of the pelvis [m], or None where it was not recorded: held, it says nothing."""
     if gait.base is None or float(np.ptp(gait.base[:, 2, 3])) <= _HELD:
         return None

@@ -16,7 +16,7 @@ from exo_pin.gait.event import flat_times
 from exo_pin.gait.spatiotemporal import ground_velocity
 from exo_pin.gait.time_series import runs
 from exo_pin.kinematics.sole_contact import TOUCH_HEIGHT, with_events
-from exo_pin.kinematics.walk_numbers import sole_points
+from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
 LARGE_SLIDE = 0.020

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from exo_pin.anatomy import CORNERS, FEET, SIDES
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Manner, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
@@ -34,15 +34,12 @@ from exo_pin.gait.spatiotemporal import ground_velocity
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
 from exo_pin.gait.strides import unrolled
 from exo_pin.gait.toe_clearance import toe_clearances
-from exo_pin.kinematics.motion import poses
-from exo_pin.kinematics.sole_contact import with_events
+from exo_pin.kinematics.sole_contact import recorded_height, with_events
+from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
 ON_THE_MODEL = "model's feet"
 """Where lengths are measured without markers: at the heel of the sole, the ball for clearance."""
-
-_HELD = 1e-3
-"""A pelvis that goes up and down by less [m] was held: heights of the feet say nothing then."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -240,13 +237,6 @@ def _at_markers(gait: Gait, feet: FootMarkers) -> dict[str, tuple[Number, str]]:
 
 def _model_clearances(robot: Robot, gait: Gait) -> dict[str, Number]:
     """Clearance of the balls of the model's feet; nothing where the pelvis's height was not recorded."""
-    if gait.base is None or np.ptp(gait.base[:, 2, 3]) < _HELD:
+    if recorded_height(gait) is None:
         return {}
     return toe_clearances(gait.time, sole_points(robot, gait)[:, :, 1], gait.events)
-
-
-def sole_points(robot: Robot, gait: Gait) -> Array:
-    """`(n, 2, 2, 3)` left and right foot: heel and ball, midway between their corners [m]."""
-    base = robot.base_of(gait)
-    corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
-    return np.asarray(corners.reshape(len(gait), len(FEET), 2, 2, 3).mean(axis=3))

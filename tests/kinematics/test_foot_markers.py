@@ -15,7 +15,8 @@ from exo_pin.gait import Event
 from exo_pin.gait.toe_clearance import toe_clearances
 from exo_pin.gait.trial import Markers, to_z_up
 from exo_pin.kinematics import foot_markers, walk_numbers
-from exo_pin.kinematics.walk_numbers import ON_THE_MODEL, sole_points
+from exo_pin.kinematics.sole_points import sole_points
+from exo_pin.kinematics.walk_numbers import ON_THE_MODEL
 from exo_pin.robot import load_robot
 
 WALK = "c3d_pig_walk_HC036A/HC036A10_walk.c3d"

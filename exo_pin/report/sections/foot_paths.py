@@ -6,6 +6,7 @@ from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, stance_times
 from exo_pin.kinematics import poses
+from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.report.document.blocks import Figure, Paragraph, Section, Table
 from exo_pin.report.draw import skeleton, svg, walk_charts
 from exo_pin.report.draw.chart import Chart, Curve, draw
@@ -63,7 +64,7 @@ def foot_paths(gait: Gait, corners: Array) -> tuple[Drawing, ...]:
         gait: Its time and events.
         corners: `(n, 8, 3)` of the sole corners in the world, as in `anatomy.CORNERS` [m].
     """
-    points = 100 * corners.reshape(len(corners), 2, 2, 2, 3).mean(axis=3)  # side, heel or ball [cm]
+    points = 100 * heels_and_balls(corners)  # [cm]
     time, closed = walk_charts.over_time(gait, points)
     side, height = [], []
     for s, name in enumerate(SIDES):
