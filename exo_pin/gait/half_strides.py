@@ -13,7 +13,7 @@ from exo_pin.anatomy.names import Side
 from exo_pin.gait.event import Event, between
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.stride_checks import QUICKEST_STRIDE
-from exo_pin.gait.strides import Stride, strides
+from exo_pin.gait.strides import Stride, strides, strides_of_both
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ def walk_estimate(gait: Gait) -> StrideEstimate | None:
 
     None where a foot has one, or where nothing tells the stride time.
     """
-    if any(not span.why for side in SIDES for span in strides(gait, side)):
+    if any(not span.why for span in strides_of_both(gait)):
         return None
     found = (stride_estimate(gait, side) for side in SIDES)
     return min((x for x in found if x), key=lambda x: x.strike, default=None)

@@ -11,6 +11,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
+from exo_pin.errors import GaitError
 from exo_pin.gait.event import SAME_TIME, between
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.heading import yaw
@@ -81,6 +82,24 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
         for span, turn, lift in zip(spans, turns, lifted, strict=True)
     ]
     return tuple(span._replace(why=why) for span, why in zip(spans, whys, strict=True))
+
+
+def strides_of_both(gait: Gait) -> tuple[Stride, ...]:
+    """The `strides` of the left foot, then those of the right one."""
+    return tuple(span for side in SIDES for span in strides(gait, side))
+
+
+def counted_strides(gait: Gait) -> list[Stride]:
+    """The strides of both feet without a reason against them; none where no foot strikes twice.
+
+    Raises:
+        GaitError: Every span between two strikes has a reason against it; the message gives the first one.
+    """
+    spans = strides_of_both(gait)
+    counted = [span for span in spans if not span.why]
+    if spans and not counted:
+        raise GaitError(f"no gait cycles found: {spans[0].why}")
+    return counted
 
 
 def side_with_more_strides(gait: Gait) -> Side:

@@ -15,7 +15,7 @@ from exo_pin.gait import Event, Gait
 from exo_pin.gait.heading import headings
 from exo_pin.gait.running_method import Runner
 from exo_pin.gait.stride_checks import Feet
-from exo_pin.gait.strides import strides, turns_of
+from exo_pin.gait.strides import counted_strides, turns_of
 from exo_pin.gait.walking_bouts import walking_events
 from exo_pin.kinematics.motion import poses
 from exo_pin.kinematics.sole_points import heels_and_balls
@@ -108,7 +108,7 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         turn = abs(float(turns_of(gait, gait.time[[0, -1]])[0]))
         hint = f"; the pelvis turns by {np.degrees(turn):.0f} deg on the spot" if turn > _LARGE_TURN else ""
         raise GaitError(f"{error}{hint}") from error
-    _check_strides(dataclasses.replace(gait, events=found))
+    counted_strides(dataclasses.replace(gait, events=found))  # refuses a motion without any
     return found
 
 
@@ -126,10 +126,3 @@ def with_events(robot: Robot, gait: Gait) -> Gait:
         GaitError: It has none, and there are no gait cycles in the motion.
     """
     return gait if gait.events else dataclasses.replace(gait, events=events(robot, gait))
-
-
-def _check_strides(gait: Gait) -> None:
-    """Raises `GaitError` if none of the strides of a walk counts as one."""
-    spans = [span for side in SIDES for span in strides(gait, side)]
-    if spans and all(span.why for span in spans):
-        raise GaitError(f"no gait cycles found: {spans[0].why}")

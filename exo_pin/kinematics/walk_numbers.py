@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from itertools import pairwise
-
-import numpy as np
+from dataclasses import dataclass, field, replace
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Manner, Side
@@ -22,17 +19,14 @@ from exo_pin.gait import (
     against_normal,
     manner,
     normal,
-    strides,
     walk_estimate,
 )
-from exo_pin.gait.event import Event, whole_stances
-from exo_pin.gait.heading import heading
+from exo_pin.gait.estimated_numbers import estimated_numbers
 from exo_pin.gait.manner import contacts_are_measured
 from exo_pin.gait.marked_feet import FootMarkers
 from exo_pin.gait.published_ranges import CITATIONS
-from exo_pin.gait.spatiotemporal import ground_velocity
 from exo_pin.gait.spatiotemporal import spatiotemporal as numbers_of
-from exo_pin.gait.strides import unrolled
+from exo_pin.gait.strides import counted_strides, strides_of_both, unrolled
 from exo_pin.gait.toe_clearance import toe_clearances
 from exo_pin.kinematics.sole_contact import recorded_height, with_events
 from exo_pin.kinematics.sole_points import sole_points
@@ -107,37 +101,29 @@ def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> W
         gait: The walk.
         feet: Heel and toe markers of its trial.
     """
-    estimate = None
     try:
         gait = with_events(robot, gait)
-        estimate = walk_estimate(gait)
-        numbers = _known(gait, _all_numbers(robot, gait))
+        how, estimate = manner(gait), walk_estimate(gait)
+        numbers = _known(gait, how, _on_the_model(robot, gait, estimate))
     except GaitError as error:
         return WalkNumbers(missing=str(error))
-    numbers |= _model_clearances(robot, gait)
-    measured = {name: ON_THE_MODEL for name, number in numbers.items() if number.unit in ("m", "m/s")}
+    seen = {name: (number, ON_THE_MODEL) for name, number in numbers.items() if _is_length(number)}
     if feet is not None:
-        seen = _at_markers(gait, feet)
-        numbers |= {name: number for name, (number, _) in seen.items()}
-        measured |= {name: where for name, (_, where) in seen.items()}
-    leg_length = robot.body.leg_length if robot.body else math.nan
-    if manner(gait) == "run":  # the published ranges are those of walks
-        return WalkNumbers(
-            strides=tuple(x for side in SIDES for x in strides(gait, side)),
-            numbers={name: x for name, x in numbers.items() if not name.endswith("clearance")},
-            measured={name: x for name, x in measured.items() if not name.endswith("clearance")},
-            estimate=estimate,
-            manner="run",
-            unknown="" if contacts_are_measured(gait) else _UNKNOWN,
-        )
-    return WalkNumbers(
-        strides=tuple(x for side in SIDES for x in strides(gait, side)),
-        numbers=numbers,
+        seen |= _at_markers(gait, estimate, feet)
+    if how == "walk":
+        seen |= _clearances(robot, gait, feet)
+    found = WalkNumbers(
+        strides=strides_of_both(gait),
+        numbers=numbers | {name: number for name, (number, _) in seen.items()},
+        measured={name: where for name, (_, where) in seen.items()},
         estimate=estimate,
-        usual=normal(numbers, leg_length=leg_length),
-        verdicts=against_normal(numbers, leg_length=leg_length),
-        measured=measured,
+        manner=how,
     )
+    if how == "run":  # the published ranges are those of walks
+        return replace(found, unknown="" if contacts_are_measured(gait) else _UNKNOWN)
+    leg_length = robot.body.leg_length if robot.body else math.nan
+    usual = normal(found.numbers, leg_length=leg_length)
+    return replace(found, usual=usual, verdicts=against_normal(found.numbers, leg_length=leg_length))
 
 
 def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
@@ -154,89 +140,67 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
     gait = with_events(robot, gait)
     if walk_estimate(gait):
         raise GaitError("no gait cycles found: no foot strikes the ground twice")
-    return _known(gait, _all_numbers(robot, gait))
+    return _known(gait, manner(gait), _on_the_model(robot, gait, None))
 
 
-def _known(gait: Gait, numbers: dict[str, Number]) -> dict[str, Number]:
+def _known(gait: Gait, how: Manner, numbers: dict[str, Number]) -> dict[str, Number]:
     """The numbers without those that need contacts where a run's are not measured."""
-    if manner(gait) == "run" and not contacts_are_measured(gait):
+    if how == "run" and not contacts_are_measured(gait):
         return {name: x for name, x in numbers.items() if not name.endswith(_OF_CONTACT)}
     return numbers
 
 
-def _all_numbers(robot: Robot, gait: Gait) -> dict[str, Number]:
+def _is_length(number: Number) -> bool:
+    """Whether it depends on where on the foot it is measured."""
+    return number.unit in ("m", "m/s")
+
+
+def _on_the_model(robot: Robot, gait: Gait, estimate: StrideEstimate | None) -> dict[str, Number]:
     walk = unrolled(gait)
-    return _numbers(gait, walk.time, sole_points(robot, walk)[:, :, 0])
+    return _numbers(gait, estimate, walk.time, sole_points(robot, walk)[:, :, 0])
 
 
-def _numbers(gait: Gait, time: Array, heels: Array) -> dict[str, Number]:
+def _numbers(gait: Gait, estimate: StrideEstimate | None, time: Array, heels: Array) -> dict[str, Number]:
     """The numbers of a gait with events, its heels `(n, 2, 3)` at times `(n,)`; raises `GaitError`."""
-    estimate = walk_estimate(gait)
     if estimate is not None:
-        return _estimated(gait, estimate, time, heels)
+        return estimated_numbers(gait, estimate, time, heels)
     walk = unrolled(gait)
-    spans = [span for side in SIDES for span in strides(walk, side)]
-    counted = [span for span in spans if not span.why]
-    if spans and not counted:
-        raise GaitError(f"no gait cycles found: {spans[0].why}")
     return numbers_of(
         time,
         heels,
         walk.events,
         pelvis=None if walk.base is None else walk.base[:, :2, 3],
-        spans=counted,
+        spans=counted_strides(walk),
         until=gait.duration if gait.periodic else float("inf"),
     )
 
 
-def _estimated(gait: Gait, estimate: StrideEstimate, time: Array, heels: Array) -> dict[str, Number]:
-    """The numbers of an estimated stride: between toe-offs where it was measured there, else of its step."""
-    pelvis = None if gait.base is None else gait.base[:, :2, 3]
-    once = {"cadence": (120 / estimate.duration, "steps/min"), "stride_time": (estimate.duration, "s")}
-    strikes = [event for event in gait.events if event.kind == "heel_strike"]
-    # without a whole stance nothing tells whether the ground moves: no treadmill's speed, no length
-    stood = any(True for side in SIDES for _ in whole_stances(gait.events, side))
-    for a, b in pairwise(strikes):
-        if a.side != b.side:
-            once[f"{b.side}_step_time"] = (b.time - a.time, "s")
-            if stood and not estimate.spans:
-                along = _step_length(gait, time, heels, (a, b))
-                once |= {"speed": (along / (b.time - a.time), "m/s"), f"{b.side}_step_length": (along, "m")}
-    for side in SIDES:
-        for start, end in whole_stances(gait.events, side):
-            once[f"{side}_stance"] = (100 * (end - start) / estimate.duration, "%")
-    numbers = {name: Number(x, math.nan, 1, unit) for name, (x, unit) in once.items()}
-    if estimate.spans:
-        numbers |= numbers_of(time, heels, gait.events, pelvis=pelvis, spans=estimate.spans)
-    return numbers
+def _at_markers(
+    gait: Gait, estimate: StrideEstimate | None, feet: FootMarkers
+) -> dict[str, tuple[Number, str]]:
+    """What heel markers measure of a gait with events, and where that is."""
+    where = f"markers {', '.join(feet.heel_names)}"
+    numbers = _numbers(gait, estimate, feet.time, feet.heels)
+    return {
+        name: (number, where)
+        for name, number in numbers.items()
+        if _is_length(number) or name == "step_length_symmetry"
+    }
 
 
-def _step_length(gait: Gait, time: Array, heels: Array, strikes: tuple[Event, Event]) -> float:
-    """From one foot's strike to the other's over the ground, along the pelvis's mean heading [m]."""
-    pelvis = None if gait.base is None else gait.base[:, :2, 3]
-    places = [
-        [np.interp(strike.time, time, heels[:, SIDES.index(strike.side), axis]) for axis in range(2)]
-        for strike in strikes
-    ]
-    ground = ground_velocity(time, heels, gait.events, pelvis)
-    step = np.subtract(places[1], places[0]) - ground * (strikes[1].time - strikes[0].time)
-    angle = heading(gait) or 0.0
-    return float(step @ [math.cos(angle), math.sin(angle)])
+def _clearances(robot: Robot, gait: Gait, feet: FootMarkers | None) -> dict[str, tuple[Number, str]]:
+    """Clearances of the toes, and where each was measured: at their markers, else at the model's balls.
 
-
-def _at_markers(gait: Gait, feet: FootMarkers) -> dict[str, tuple[Number, str]]:
-    """What heel and toe markers measure of a gait with events, and where that is."""
-    heels, toes = (f"markers {', '.join(names)}" for names in (feet.heel_names, feet.toe_names))
-    lengths = _numbers(gait, feet.time, feet.heels)
-    found = {name: (number, heels) for name, number in lengths.items() if number.unit in ("m", "m/s")}
-    symmetry = "step_length_symmetry"
-    found |= {symmetry: (lengths[symmetry], heels)} if symmetry in lengths else {}
-    clearances = toe_clearances(feet.time, feet.toes, gait.events)
-    return found | {name: (number, toes) for name, number in clearances.items()}
-
-
-def _model_clearances(robot: Robot, gait: Gait) -> dict[str, Number]:
-    """Clearance of the balls of the model's feet; nothing where the pelvis's height was not recorded."""
-    if recorded_height(gait) is None:
-        return {}
-    return toe_clearances(gait.time, sole_points(robot, gait)[:, :, 1], gait.events)
+    The model has none where the pelvis's height was not recorded.
+    """
+    found = {}
+    if recorded_height(gait) is not None:
+        balls = sole_points(robot, gait)[:, :, 1]
+        found = {
+            x: (number, ON_THE_MODEL) for x, number in toe_clearances(gait.time, balls, gait.events).items()
+        }
+    if feet is not None:
+        where = f"markers {', '.join(feet.toe_names)}"
+        seen = toe_clearances(feet.time, feet.toes, gait.events)
+        found |= {name: (number, where) for name, number in seen.items()}
+    return found
