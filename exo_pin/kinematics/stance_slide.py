@@ -10,12 +10,11 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
-from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.event import flat_times
 from exo_pin.gait.spatiotemporal import ground_velocity
 from exo_pin.gait.time_series import runs
-from exo_pin.kinematics.sole_contact import TOUCH_HEIGHT, with_events
+from exo_pin.kinematics.sole_contact import TOUCH_HEIGHT
 from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
@@ -89,12 +88,9 @@ def slide_doubts(robot: Robot, gait: Gait) -> tuple[str, ...]:
 
     Args:
         robot: With the person's sizes.
-        gait: The walk; events by its kinematics where it has none.
+        gait: The walk; its events are used.
     """
-    try:
-        found = largest_slide(robot, with_events(robot, gait))
-    except GaitError:
-        return ()
+    found = largest_slide(robot, gait)
     if found is None or found.distance <= LARGE_SLIDE:
         return ()
     when = f"{found.start:.2f} .. {found.end:.2f} s"

@@ -25,7 +25,7 @@ def plausibility(robot: Robot, gait: Gait, *, more: Iterable[str] = ()) -> Plaus
         more: Reasons found elsewhere: how markers are met, how force plates were read.
     """
     found = Plausibility(implausibilities(gait))
-    with suppress(GaitError):  # a motion without cycles has no landings that its curves bend at
+    with suppress(GaitError):  # without cycles there are no landings that curves bend at, and no stances
         gait = with_events(robot, gait)
     return found.with_reasons((*_outliers(curve_outliers(gait)), *slide_doubts(robot, gait), *more))
 
