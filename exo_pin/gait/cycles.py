@@ -13,7 +13,7 @@ from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import time_series
-from exo_pin.gait.event import EVENT_KINDS, Event
+from exo_pin.gait.event import EVENT_KINDS, Event, times_of
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.rigid_poses import nearest_pose
@@ -175,7 +175,7 @@ def _contacts(walk: Gait, spans: Sequence[Stride]) -> dict[tuple[EventKind, Side
     found: dict[tuple[EventKind, Side], Array] = {}
     for side in SIDES:
         for kind in EVENT_KINDS:
-            times = np.array([e.time for e in walk.events if (e.kind, e.side) == (kind, side)])
+            times = np.array(times_of(walk.events, kind, side))
             inside = [(span, times[slice(*np.searchsorted(times, span[1:3]))]) for span in spans]
             phases = [(t[0] - span.start) / span.duration for span, t in inside if len(t) == 1]
             if phases:

@@ -42,7 +42,7 @@ def estimated_numbers(gait: Gait, estimate: StrideEstimate, time: Array, heels: 
     for side, spans in stances.items():
         for start, end in spans:
             once[f"{side}_stance"] = (100 * (end - start) / estimate.duration, "%")
-    numbers = {name: Number(x, math.nan, 1, unit) for name, (x, unit) in once.items()}
+    numbers = {name: Number.of([x], unit) for name, (x, unit) in once.items()}
     if estimate.spans:
         numbers |= spatiotemporal(time, heels, gait.events, pelvis=pelvis, spans=estimate.spans)
     return numbers

@@ -18,6 +18,9 @@ from exo_pin.frozen_fields import set_fields
 EVENT_KINDS: tuple[EventKind, ...] = ("heel_strike", "toe_off")
 """Initial contact of a foot with the ground, and the end of its contact."""
 
+WHOLE_STRIDE: tuple[EventKind, ...] = ("heel_strike", "toe_off", "heel_strike")
+"""Events of a foot in a row that make a whole stride."""
+
 SAME_TIME = 1e-9
 """Two times closer than this are the same [s]: an event so close to a sample lies on it."""
 
@@ -54,6 +57,17 @@ class Event:
                 raise GaitError(f"event at {self.time:g} s: {what} is {value!r}, expected {choices}")
 
 
+def times_of(events: Iterable[Event], kind: EventKind, side: Side) -> list[float]:
+    """The times of one kind of event of one foot [s].
+
+    Args:
+        events: Sorted by time.
+        kind: `"heel_strike"` or `"toe_off"`.
+        side: `"left"` or `"right"`.
+    """
+    return [event.time for event in events if (event.kind, event.side) == (kind, side)]
+
+
 def between(times: Sequence[float], start: float, end: float) -> Sequence[float]:
     """The times strictly between two moments.
 
@@ -87,6 +101,21 @@ def whole_stances(events: Iterable[Event], side: Side) -> Iterator[tuple[float, 
     for strike, off in pairwise(event for event in events if event.side == side):
         if (strike.kind, off.kind) == ("heel_strike", "toe_off"):
             yield strike.time, off.time
+
+
+def stance_shares(events: Iterable[Event], side: Side) -> list[float]:
+    """Stance as a part of the stride, of each heel strike, toe-off and next heel strike of a foot in a row.
+
+    Args:
+        events: Sorted by time.
+        side: `"left"` or `"right"`.
+    """
+    mine = [event for event in events if event.side == side]
+    return [
+        (b.time - a.time) / (c.time - a.time)
+        for a, b, c in zip(mine, mine[1:], mine[2:], strict=False)
+        if (a.kind, b.kind, c.kind) == WHOLE_STRIDE
+    ]
 
 
 def stance(time: Array, events: Sequence[Event], side: Side, *, periodic: bool) -> Mask:

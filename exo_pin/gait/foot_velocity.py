@@ -80,7 +80,13 @@ def slopes(time: Array, values: Array, half: float) -> tuple[Array, Array]:
 
 
 def vertex(time: Array, y: Array, i: int) -> float:
-    """Time of the parabola's vertex through the samples around a maximum of y at sample i."""
+    """Time of the parabola's vertex through the samples around a maximum [s].
+
+    Args:
+        time: `(n,)` [s].
+        y: `(n,)` a curve, in any unit.
+        i: The sample of its maximum.
+    """
     if not 0 < i < len(y) - 1:
         return float(time[i])
     before, after = time[i - 1] - time[i], time[i + 1] - time[i]

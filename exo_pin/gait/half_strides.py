@@ -10,7 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.gait.event import Event, between
+from exo_pin.gait.event import Event, between, times_of
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.stride_checks import QUICKEST_STRIDE
 from exo_pin.gait.strides import Stride, strides, strides_of_both
@@ -75,7 +75,7 @@ def stride_estimate(gait: Gait, side: Side) -> StrideEstimate | None:
         gait: A walk with events.
         side: Whose stride.
     """
-    strikes = _times(gait.events, side, "heel_strike")
+    strikes = times_of(gait.events, "heel_strike", side)
     if not strikes:
         return None
     other: Side = SIDES[1 - SIDES.index(side)]
@@ -100,8 +100,8 @@ def _between_toe_offs(events: Sequence[Event]) -> tuple[Stride, ...]:
     return tuple(
         Stride(side, a, b)
         for side in SIDES
-        for a, b in pairwise(_times(events, side, "toe_off"))
-        if len(between(_times(events, side, "heel_strike"), a, b)) == 1
+        for a, b in pairwise(times_of(events, "toe_off", side))
+        if len(between(times_of(events, "heel_strike", side), a, b)) == 1
     )
 
 
@@ -110,7 +110,3 @@ def _step_time(events: Sequence[Event]) -> float:
     strikes = [event for event in events if event.kind == "heel_strike"]
     steps = [b.time - a.time for a, b in pairwise(strikes) if a.side != b.side]
     return float(np.mean(steps)) if steps else 0.0
-
-
-def _times(events: Sequence[Event], side: Side, kind: str) -> list[float]:
-    return [event.time for event in events if (event.side, event.kind) == (side, kind)]

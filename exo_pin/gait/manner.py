@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Manner
-from exo_pin.gait.event import Event
+from exo_pin.gait.event import Event, between, stance_shares, times_of
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.running_method import RUNNING_SOURCES
 from exo_pin.gait.strides import unrolled
@@ -28,7 +26,7 @@ def manner(gait: Gait) -> Manner:
     flights = _flights(events)
     if flights:
         return "run" if np.mean(flights) > 0.5 else "walk"
-    stances = _stances(events)
+    stances = [share for side in SIDES for share in stance_shares(events, side)]
     return "run" if stances and np.median(stances) < _RUNS_STANCE else "walk"
 
 
@@ -41,22 +39,12 @@ def contacts_are_measured(gait: Gait) -> bool:
 def _flights(events: tuple[Event, ...]) -> list[bool]:
     """Of each step whose first foot leaves the ground: whether it does before the other foot strikes."""
     strikes = [e for e in events if e.kind == "heel_strike"]
+    offs = {side: times_of(events, "toe_off", side) for side in SIDES}
     found = []
     for a, b, following in zip(strikes, strikes[1:], [*strikes[2:], None], strict=False):
         if a.side == b.side:
             continue
         until = following.time if following else np.inf
-        offs = [e.time for e in events if (e.kind, e.side) == ("toe_off", a.side) and a.time < e.time < until]
-        found += [offs[0] < b.time] if offs else []
-    return found
-
-
-def _stances(events: tuple[Event, ...]) -> list[float]:
-    """Stances as parts of their stride, of each foot's strike, toe-off and next strike."""
-    found = []
-    for side in SIDES:
-        mine = [e for e in events if e.side == side]
-        for (a, b), c in zip(pairwise(mine), mine[2:], strict=False):
-            if (a.kind, b.kind, c.kind) == ("heel_strike", "toe_off", "heel_strike"):
-                found.append((b.time - a.time) / (c.time - a.time))
+        left = between(offs[a.side], a.time, until)
+        found += [left[0] < b.time] if left else []
     return found

@@ -11,7 +11,7 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
-from exo_pin.gait.event import SAME_TIME, Event, whole_stances
+from exo_pin.gait.event import SAME_TIME, WHOLE_STRIDE, Event, stance_shares, whole_stances
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.half_strides import stride_estimate
 
@@ -44,11 +44,7 @@ class ToeOff(NamedTuple):
 
 def toe_off(gait: Gait, side: Side) -> ToeOff:
     """Mean toe-off of a foot's whole strides; else its stance in an estimated stride, else Perry's 62 %."""
-    events = _events(gait, side)
-    triples = zip(events, events[1:], events[2:], strict=False)
-    shares = [
-        (b.time - a.time) / (c.time - a.time) for a, b, c in triples if (a.kind, b.kind, c.kind) == _WHOLE
-    ]
+    shares = stance_shares(_events(gait, side), side)
     if shares:
         return ToeOff(100 * float(np.mean(shares)), "events")
     estimate = stride_estimate(gait, side)
@@ -84,9 +80,6 @@ def masks(gait: Gait, side: Side) -> dict[str, Mask]:
         return {name: (stage >= low) & (stage < high) for name, (low, high) in PHASES.items()}
 
 
-_WHOLE = ("heel_strike", "toe_off", "heel_strike")
-
-
 def _events(gait: Gait, side: Side) -> list[Event]:
     """The events of a foot, sorted; those of a walk that repeats for three rounds."""
     mine = [event for event in gait.events if event.side == side]
@@ -106,7 +99,7 @@ def _placed(gait: Gait, side: Side) -> tuple[Array, Array]:
         first = k if a.kind == "heel_strike" else k - 1
         around = events[first : first + 3] if first >= 0 else []
         off = usual
-        if tuple(event.kind for event in around) == _WHOLE:
+        if tuple(event.kind for event in around) == WHOLE_STRIDE:
             off = 100 * (around[1].time - around[0].time) / (around[2].time - around[0].time)
         low = 0.0 if a.kind == "heel_strike" else off
         high = off if b.kind == "toe_off" else 100.0

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES
-from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait.event import Event, between
+from exo_pin.gait.event import EVENT_KINDS, Event, between, times_of
 from exo_pin.gait.foot_velocity import slopes, vertex
 from exo_pin.gait.stride_checks import Feet
 
@@ -87,11 +86,11 @@ def running_events(runner: Runner, known: Sequence[Event]) -> list[Event]:
     grid, up = _acceleration(feet.time, soles)
     found = []
     for k, side in enumerate(SIDES):
-        ahead, behind = (_times(known, kind, side) for kind in ("heel_strike", "toe_off"))
+        ahead, behind = (times_of(known, kind, side) for kind in EVENT_KINDS)
         spans = [(t, min([t + _LANDS_WITHIN * stride, *(x for x in behind if x > t)])) for t in ahead]
         if runner.height is not None:
             spans = [(_near_ground(feet.time, soles[:, k], *span), span[1]) for span in spans]
-        else:  # a landing that the recording cuts off cannot be told from what comes before it
+        else:  # a landing that the recording cuts off looks like what comes before it
             spans = [span for span in spans if span[1] < feet.time[-1]]
         landed = _contacts(grid, up[:, k], spans)
         found += [Event(t, "heel_strike", side, STRIKE) for t in landed]
@@ -154,7 +153,7 @@ def looks_like_a_run(runner: Runner, events: Sequence[Event], known: Sequence[Ev
     stances = [
         (offs[0] - e.time) / stride
         for e in steps
-        if (offs := between(_times(known, "toe_off", e.side), e.time, e.time + stride))
+        if (offs := between(times_of(known, "toe_off", e.side), e.time, e.time + stride))
     ]
     bent = float(np.percentile(runner.knee, 98, axis=0).min()) > _BENT_KNEE
     short = bool(stances) and float(np.median(stances)) < _SHORT_STANCE
@@ -165,14 +164,10 @@ def _backwards(feet: Feet, events: Sequence[Event]) -> float:
     """Median speed at which a standing foot goes back under the pelvis [m/s]: that of the runner."""
     ahead, speeds = feet.ahead(feet.toe), []
     for k, side in enumerate(SIDES):
-        for t in _times(events, "heel_strike", side):
+        for t in times_of(events, "heel_strike", side):
             a, b = np.interp([t + 0.05, t + 0.15], feet.time, ahead[:, k])
             speeds.append((a - b) / 0.1)
     return float(np.median(speeds)) if speeds else 0.0
-
-
-def _times(events: Sequence[Event], kind: str, side: Side) -> list[float]:
-    return [e.time for e in events if (e.kind, e.side) == (kind, side)]
 
 
 def _acceleration(time: Array, height: Array) -> tuple[Array, Array]:
@@ -181,7 +176,7 @@ def _acceleration(time: Array, height: Array) -> tuple[Array, Array]:
 
 
 def _peak(time: Array, values: Array, start: float, end: float) -> tuple[float, float]:
-    """When values `(n,)` have their peak between two moments [s], and how high; -inf where there is none."""
+    """When values `(n,)` have their peak between two moments [s], and how high; -inf for none."""
     first, stop = np.searchsorted(time, [start, end])
     if stop - first < 3:
         return start, -np.inf

@@ -39,6 +39,13 @@ class Number(NamedTuple):
     n: int
     unit: str
 
+    @staticmethod
+    def of(values: ArrayLike, unit: str) -> Number:
+        """The measure over its single values, one or more."""
+        x = np.asarray(values, dtype=float)
+        sd = float(x.std(ddof=1)) if len(x) > 1 else float("nan")
+        return Number(float(x.mean()), sd, len(x), unit)
+
 
 def spatiotemporal(
     time: ArrayLike,
@@ -96,7 +103,7 @@ def spatiotemporal(
         **_phases(walk, counted),
     }
     known = {name: (unit, _known(values)) for name, (unit, values) in measures.items()}
-    out = {name: _number(values, unit) for name, (unit, values) in known.items() if len(values)}
+    out = {name: Number.of(values, unit) for name, (unit, values) in known.items() if len(values)}
     return out | _symmetry({name: values for name, (_, values) in known.items() if len(values)})
 
 
@@ -225,7 +232,7 @@ def _symmetry(values: Mapping[str, Array]) -> dict[str, Number]:
             continue
         n = min(len(left), len(right))
         index = 200 * abs(left.mean() - right.mean()) / (left.mean() + right.mean())
-        each = _number(200 * (left[:n] - right[:n]) / (left[:n] + right[:n]), "%")
+        each = Number.of(200 * (left[:n] - right[:n]) / (left[:n] + right[:n]), "%")
         out[f"{name}_symmetry"] = Number(float(index), each.sd, n, "%")
     return out
 
@@ -234,9 +241,3 @@ def _known(values: ArrayLike) -> Array:
     """The values that are known, without NaN."""
     x = np.asarray(values, dtype=float)
     return np.asarray(x[np.isfinite(x)])
-
-
-def _number(values: ArrayLike, unit: str) -> Number:
-    x = np.asarray(values, dtype=float)
-    sd = float(x.std(ddof=1)) if len(x) > 1 else float("nan")
-    return Number(float(x.mean()), sd, len(x), unit)

@@ -12,7 +12,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
-from exo_pin.gait.event import SAME_TIME, between
+from exo_pin.gait.event import EVENT_KINDS, SAME_TIME, between, times_of
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.heading import yaw
 
@@ -68,13 +68,11 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
     if gait.periodic:
         first = gait.duration - SAME_TIME
         return tuple(span for span in strides(unrolled(gait), side) if span.start < first)
-    mine = [event for event in gait.events if event.side == side]
-    strikes = [event.time for event in mine if event.kind == "heel_strike"]
+    strikes, offs = (times_of(gait.events, kind, side) for kind in EVENT_KINDS)
     spans = [Stride(side, a, b) for a, b in pairwise(strikes)]
     if not spans:
         return ()
     usual = float(np.median([span.duration for span in spans]))
-    offs = [event.time for event in mine if event.kind == "toe_off"]
     lifted = np.array([bool(between(offs, span.start, span.end)) for span in spans])
     rest, turns = _still(gait, usual).tolist(), turns_of(gait, strikes)
     whys = [

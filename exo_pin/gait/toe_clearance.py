@@ -33,8 +33,7 @@ def toe_clearances(time: Array, toes: Array, events: Sequence[Event]) -> dict[st
     for k, side in enumerate(SIDES):
         values = _clearances(time, toes[:, k, 2], events, side)
         if values:
-            sd = float(np.std(values, ddof=1)) if len(values) > 1 else float("nan")
-            out[f"{side}_toe_clearance"] = Number(float(np.mean(values)), sd, len(values), "m")
+            out[f"{side}_toe_clearance"] = Number.of(values, "m")
     return out
 
 

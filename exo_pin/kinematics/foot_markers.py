@@ -61,7 +61,7 @@ def foot_markers(trial: Markers, robot: Robot, gait: Gait) -> FootMarkers | None
 
 
 def _pair(names: tuple[str, ...], words: tuple[str, ...]) -> tuple[str, ...]:
-    """The left and the right marker of the first name that both feet have; empty where there is none."""
+    """The left and the right marker of the first name that both feet have; else empty."""
     for word in words:
         found = [next((name for name in names if _is(name, word, side)), "") for side in SIDES]
         if all(found):
