@@ -45,6 +45,21 @@ def beside(values: NDArray[Entry], other: Any) -> NDArray[Entry]:
     return to_host(values)
 
 
+def filled(shape: int | tuple[int, ...], value: float, *, like: Array) -> Array:
+    """One number many times, where another array lives.
+
+    `np.full(..., like=...)` cannot: CuPy's `full` does not take all arguments that NumPy's hands on.
+
+    Args:
+        shape: Of the result.
+        value: The number.
+        like: The other array.
+    """
+    out = np.empty(shape, like=like)
+    out[...] = value
+    return out
+
+
 def to_host(values: NDArray[Entry]) -> NDArray[Entry]:
     """An array in the host's memory: the same one for NumPy, a copy from an accelerator."""
     remote: Any = values

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.arrays import Array, Index, as_floats, beside
+from exo_pin.arrays import Array, Index, as_floats, beside, filled
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
@@ -84,9 +84,8 @@ class SolutionBuffer:
         n, like = task.n, task.goals[0].p
         q = np.empty((n, task.robot.nq), like=like)
         q[:] = beside(task.rest, like)
-        errors = np.empty((2, n, len(task.frames)), like=like)
-        room = np.empty((n, len(task.frames)), like=like)
-        errors[:], room[:] = np.nan, np.nan  # CuPy's `full` does not take what NumPy's hands on
+        errors = filled((2, n, len(task.frames)), np.nan, like=like)
+        room = filled((n, len(task.frames)), np.nan, like=like)
         steps, solver = np.zeros(n, dtype=np.int64, like=like), np.zeros(n, dtype=np.int8, like=like)
         return cls(q, errors, steps, solver, room)
 

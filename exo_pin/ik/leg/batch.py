@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from exo_pin.arrays import Array, beside, to_host
+from exo_pin.arrays import Array, beside, filled, to_host
 from exo_pin.chunks import for_chunks
 from exo_pin.ik.leg import closed_form
 from exo_pin.ik.leg.geometry import ClosedFormGeometry
@@ -82,7 +82,7 @@ def reach_slack(leg: LegAxes | None, goal: Goal) -> Array:
 
     NaN for targets without a rotation and for frames that no leg carries.
     """
-    out = np.nan + np.zeros(len(goal.p), like=goal.p)
+    out = filled(len(goal.p), np.nan, like=goal.p)
     if leg is None or goal.R is None:
         return out
     rotations, positions = goal.R, goal.p

@@ -16,7 +16,7 @@ from typing import cast
 
 import numpy as np
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, filled
 from exo_pin.ik.leg.geometry import ClosedFormGeometry
 from exo_pin.robot import LegAxes
 from exo_pin.robot.leg_forward import Matrix, Number, Tip, errors, mix, pose, times, transposed
@@ -61,7 +61,7 @@ def approximate_seed(leg: LegAxes, geometry: ClosedFormGeometry, R: Matrix, p: l
     """
     R_shifted, p_shifted = R, p
     first = cast("Array", p[0])
-    best, least = np.empty((6, len(first)), like=first), np.inf + np.zeros(len(first), like=first)
+    best, least = np.empty((6, len(first)), like=first), filled(len(first), np.inf, like=first)
     for k in range(_ROUNDS):
         q = angles(geometry, R_shifted, p_shifted)
         tip = pose(leg, q)
