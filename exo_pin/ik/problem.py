@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.arrays import Array, Index, as_floats, beside, filled
+from exo_pin.arrays import Array, Index, as_floats, beside, filled, to_host
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
@@ -88,6 +88,10 @@ class SolutionBuffer:
         room = filled((n, len(task.frames)), np.nan, like=like)
         steps, solver = np.zeros(n, dtype=np.int64, like=like), np.zeros(n, dtype=np.int8, like=like)
         return cls(q, errors, steps, solver, room)
+
+    def missed(self, f: int, tolerance: float) -> Index:
+        """The samples in which target f is not met within the tolerance, or has no answer yet (m,)."""
+        return to_host(np.flatnonzero(~(self.errors[:, :, f] <= tolerance).all(axis=0)))
 
     def track(self, task: Problem, tolerance: float) -> Track:
         """The finished answer."""

@@ -10,7 +10,6 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.arrays import Array, Index, Mask, beside, to_host
-from exo_pin.ik.least_squares.cost import weighted_targets
 from exo_pin.ik.least_squares.driver import (
     QUICK,
     Minimum,
@@ -56,8 +55,7 @@ def solve_leg(
         seed: Where the samples start (6, n) [rad]; what the buffer holds if left out.
         complete: Whether the start is near the only answer, so that there is none where it leaves the limits.
     """
-    with np.errstate(invalid="ignore"):
-        rest = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
+    rest = buffer.missed(f, settings.tolerance)
     if not len(rest):
         return
     spot = np.ix_(rest, leg.columns)
@@ -101,13 +99,11 @@ def settle_leg(
     if after_steps and settings.max_iterations <= QUICK:
         return
     settings = quick(settings, after_steps=after_steps)
-    f, columns, arrays = task.places_of(subtree)[0], subtree.columns, subtree.arrays
-    rest = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
+    f, columns = task.places_of(subtree)[0], subtree.columns
+    rest = buffer.missed(f, settings.tolerance)
     if not len(rest):
         return
-    assert arrays is not None  # six revolute joints
-    targets = weighted_targets(arrays, [_on_host(task.goals[f].only(rest))], settings)
-    kernel = SubtreeKernel(arrays, targets, subtree.lower[:, None], subtree.upper[:, None])
+    kernel = SubtreeKernel.of(subtree, [_on_host(task.goals[f].only(rest))], settings)
     begin = to_host(buffer.q[np.ix_(rest, columns)]).T
     _write(minimise(kernel, begin, settings), buffer, rest, f, columns)
 
@@ -125,7 +121,7 @@ def follow_leg(task: Problem, subtree: Subtree, leg: LegAxes, settings: Dls, buf
         buffer: Holds the nearest postures.
     """
     f, arrays = task.places_of(subtree)[0], subtree.arrays
-    missed = to_host(np.flatnonzero(~(buffer.errors[:, :, f] <= settings.tolerance).all(axis=0)))
+    missed = buffer.missed(f, settings.tolerance)
     if task.n < 2 or not len(missed):
         return
     assert arrays is not None  # six revolute joints
@@ -174,11 +170,9 @@ def solve_together(task: Problem, subtree: Subtree, settings: Dls, buffer: Solut
         settings: Tolerance, weights, number of steps and restarts.
         buffer: It holds the targets' slack already.
     """
-    arrays, places = subtree.arrays, task.places_of(subtree)
-    assert arrays is not None  # as the docstring says
+    places = task.places_of(subtree)
     seed = np.broadcast_to(task.seed, (task.n, task.robot.nq))[:, subtree.columns].T
-    targets = weighted_targets(arrays, task.goals_of(subtree), settings)
-    kernel = SubtreeKernel(arrays, targets, subtree.lower[:, None], subtree.upper[:, None])
+    kernel = SubtreeKernel.of(subtree, task.goals_of(subtree), settings)
     out = minimise_with_restarts(kernel, seed, settings, retry=_reachable(task, subtree, buffer))
     buffer.q[:, subtree.columns] = out.q.T
     buffer.errors[:, :, places] = out.errors.swapaxes(1, 2)
@@ -271,10 +265,9 @@ def settle(
     """
     task, q = problem(robot, targets, seed, base), np.clip(seed, lower, upper)
     for subtree in task.subtrees:
-        arrays, columns = subtree.arrays, subtree.columns
-        assert arrays is not None  # as the docstring says
-        weighted = weighted_targets(arrays, task.goals_of(subtree), settings)
-        kernel = SubtreeKernel(arrays, weighted, lower[:, columns].T, upper[:, columns].T)
+        columns = subtree.columns
+        kernel = SubtreeKernel.of(subtree, task.goals_of(subtree), settings)
+        kernel = replace(kernel, lower=lower[:, columns].T, upper=upper[:, columns].T)
         q[:, columns] = minimise(kernel, seed[:, columns].T, settings).q.T
     return q
 

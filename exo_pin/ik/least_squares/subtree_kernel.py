@@ -18,10 +18,11 @@ import numpy as np
 
 from exo_pin.arrays import Array, Index
 from exo_pin.ik.least_squares.box_qp import newton_step
-from exo_pin.ik.least_squares.cost import WeightedTarget, evaluate
+from exo_pin.ik.least_squares.cost import WeightedTarget, evaluate, weighted_targets
 from exo_pin.ik.least_squares.kernel import Evaluation, Schedule, spread_point
+from exo_pin.ik.settings import Dls
 from exo_pin.ik.targets import Goal
-from exo_pin.robot import SubtreeArrays
+from exo_pin.robot import Subtree, SubtreeArrays
 
 _FLOOR = 1e-12  # of the damping: it keeps the equations definite where a joint moves nothing
 _SHORT = 1e-11  # a step this short changes nothing any more [rad, m]
@@ -47,6 +48,20 @@ class SubtreeKernel:
     upper: Array
 
     schedule: ClassVar[Schedule] = Schedule(last=_SHORT, rounded=_ROUNDED)
+
+    @classmethod
+    def of(cls, subtree: Subtree, goals: list[Goal], settings: Dls) -> SubtreeKernel:
+        """The cost of a subtree within its limits.
+
+        Args:
+            subtree: Revolute and prismatic joints, without a floating base.
+            goals: One for each frame, n samples.
+            settings: The weights.
+        """
+        arrays = subtree.arrays
+        assert arrays is not None  # as the docstring says
+        targets = weighted_targets(arrays, goals, settings)
+        return cls(arrays, targets, subtree.lower[:, None], subtree.upper[:, None])
 
     def only(self, samples: Index) -> SubtreeKernel:
         """Some of the samples."""
