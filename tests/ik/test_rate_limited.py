@@ -128,33 +128,24 @@ def test_redundant_and_hurried_devices_keep_a_third_of_their_rates(device):
     robot.check_limits(q)
 
 
-def test_an_open_motion_does_not_return_to_its_start():
+def _open(rows, *, speed, acceleration):
+    """The motion of some samples of a cycle on their own, its speeds scaled, and its limits."""
     recorded, robot, motion, _ = _case("lokomat", 45)
-    rows = slice(0, 20)
-    limits = RateLimits(
-        Clock(recorded.gait.time[rows], None), 0.5 * robot.velocity, np.full(len(robot.joints), 100.0)
-    )
-    targets = {
-        foot: dataclasses.replace(target, p=target.p[rows])
-        for foot, target in sole_targets(robot, recorded.corners).items()
-    }
-    q = rate_limited(robot, targets, motion.q[rows], limits, base=_stand(robot, motion)[rows])
+    clock = Clock(recorded.gait.time[rows], None)
+    limits = RateLimits(clock, speed * robot.velocity, np.full(len(robot.joints), acceleration))
+    targets = sole_targets(robot, recorded.corners[rows])
+    return rate_limited(robot, targets, motion.q[rows], limits, base=_stand(robot, motion)[rows]), limits
+
+
+def test_an_open_motion_does_not_return_to_its_start():
+    q, limits = _open(slice(0, 20), speed=0.5, acceleration=100.0)
     assert (limits.use(q) <= ROUNDED).all()
     assert np.abs(q[0] - q[-1]).max() > 0.1
 
 
 @pytest.mark.parametrize("samples", [2, 3, 4, 5])
 def test_short_recordings_keep_their_limits(samples):
-    recorded, robot, motion, _ = _case("lokomat", 45)
-    rows = slice(20, 20 + samples)
-    limits = RateLimits(
-        Clock(recorded.gait.time[rows], None), 0.2 * robot.velocity, np.full(len(robot.joints), 10.0)
-    )
-    targets = {
-        foot: dataclasses.replace(target, p=target.p[rows])
-        for foot, target in sole_targets(robot, recorded.corners).items()
-    }
-    q = rate_limited(robot, targets, motion.q[rows], limits, base=_stand(robot, motion)[rows])
+    q, limits = _open(slice(20, 20 + samples), speed=0.2, acceleration=10.0)
     assert (limits.use(q) <= ROUNDED).all()
 
 
