@@ -14,7 +14,6 @@ from typing import NamedTuple
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.robot import urdf_numbers, urdf_tree
 from exo_pin.robot.urdf_tree import shown
-from exo_pin.safe import plain_numbers
 
 _PI = repr(math.pi)
 _HELD = ("floating", "planar")
@@ -112,7 +111,8 @@ def followers(text: str) -> dict[str, Follower]:
         mimic = joint.find("mimic")
         if mimic is not None and joint.get("type") != "fixed":
             name = str(joint.get("name"))
-            ratio, offset = (_number(name, mimic, *pair) for pair in (("multiplier", 1.0), ("offset", 0.0)))
+            ratio = urdf_numbers.of_joint(joint, mimic, "multiplier", default=1.0)
+            offset = urdf_numbers.of_joint(joint, mimic, "offset", default=0.0)
             found[name] = Follower(str(mimic.get("joint")), ratio, offset)
     return {name: _followed(name, found) for name in found}
 
@@ -135,7 +135,7 @@ def _judge_limits(joint: ET.Element) -> None:
     limit, name = joint.find("limit"), shown(joint.get("name"))
     if limit is None or joint.get("type") not in ("revolute", "prismatic"):
         return
-    lower, upper = (_number(name, limit, end, 0.0) for end in ("lower", "upper"))
+    lower, upper = (urdf_numbers.of_joint(joint, limit, end, default=0.0) for end in ("lower", "upper"))
     if lower > upper:
         raise DescriptionError(
             f"joint {name!r}: its lower limit {_said(joint, lower)} is above its upper limit "
@@ -146,20 +146,6 @@ def _judge_limits(joint: ET.Element) -> None:
 def _said(joint: ET.Element, value: float) -> str:
     """A limit in its unit."""
     return f"{value:g} m" if joint.get("type") == "prismatic" else f"{math.degrees(value):.4g} deg"
-
-
-def _number(name: str, element: ET.Element, attribute: str, default: float) -> float:
-    """A finite number in an element of a joint."""
-    text = element.get(attribute)
-    if text is None:
-        return default
-    try:
-        (value,) = plain_numbers.finite(text, 1)
-    except ValueError:
-        raise DescriptionError(
-            f"joint {name!r}: {attribute} of <{element.tag}> is {shown(text)!r}; a finite number is accepted"
-        ) from None
-    return value
 
 
 def _bound(joint: ET.Element, lower: str = f"-{_PI}", upper: str = _PI) -> None:

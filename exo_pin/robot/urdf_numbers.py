@@ -89,6 +89,22 @@ def judge(root: ET.Element) -> None:
             _judge_axis(f"joint {shown(joint.get('name'))!r}", axis)
 
 
+def of_joint(joint: ET.Element, part: ET.Element, attribute: str, *, default: float) -> float:
+    """A number of a joint's limit or `<mimic>`.
+
+    Args:
+        joint: The joint.
+        part: The element inside.
+        attribute: Which number.
+        default: What it is where the element leaves it out.
+
+    Raises:
+        DescriptionError: It is no finite number.
+    """
+    values = _numbers(f"joint {shown(joint.get('name'))!r}", part, attribute, _ANY)
+    return values[0] if values else default
+
+
 def _judge_part(place: str, part: ET.Element, elements: Mapping[str, Mapping[str, _Kind]]) -> None:
     for path, attributes in elements.items():
         for element in part.findall(path):
