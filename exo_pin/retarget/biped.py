@@ -168,7 +168,8 @@ def _prepared(target: Target, path: Path) -> str:
     """The URDF's text with the record's limits."""
     text = xacro_files.expanded(path) if path.suffix.lower() == ".xacro" else read_text(path)
     try:
-        urdf_tree.parsed(text)  # what is no URDF at all could be taken for the name of a file
+        if "<" not in text:
+            urdf_tree.parsed(text)  # refused: `load_urdf` would take it for the name of a file
         return urdf_joints.with_limits(text, target.limits) if target.limits else text
     except UnknownNameError:
         raise
