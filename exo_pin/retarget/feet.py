@@ -38,10 +38,14 @@ class FeetTask:
     attitudes: Array
 
 
+def fastest_turn(gait: Gait) -> float:
+    """What the person's fastest joint turns between two samples of a walk [rad]."""
+    return float(np.abs(gait.dq).max()) * float(np.diff(gait.time).max())
+
+
 def largest_step(gait: Gait) -> float:
     """What a joint of a robot may turn between two samples of a walk [rad]."""
-    interval = float(np.diff(gait.time).max())
-    return _FASTER * float(np.abs(gait.dq).max()) * interval
+    return _FASTER * fastest_turn(gait)
 
 
 def foot_by_foot(task: FeetTask, copied: Array, weights: tuple[float, ...]) -> Array:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.retarget.feet import largest_step
+from exo_pin.retarget.feet import fastest_turn
 from exo_pin.retarget.leg_search import arm_joints
 from exo_pin.retarget.retargeted import Retargeted
 from exo_pin.retarget.robot_legs import RobotLeg
@@ -144,7 +144,7 @@ def _jumps(walk: Retargeted) -> list[str]:
     """Joints that turn too far between two samples."""
     return [
         f"{name} turns by {math.degrees(step):.1f} deg between two samples; the person's fastest joint by "
-        f"{math.degrees(largest_step(walk.gait)) / 1.1:.1f}"
+        f"{math.degrees(fastest_turn(walk.gait)):.1f}"
         for name, step, jump in zip(walk.joints, walk.largest_steps, walk.jumps, strict=True)
         if jump
     ]
