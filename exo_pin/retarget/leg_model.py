@@ -22,19 +22,14 @@ def leg_model(legs: Sequence[RobotLeg]) -> Robot:
         legs: Left and right.
     """
     model = pin.Model()
-    lower: list[float] = []
-    upper: list[float] = []
     for leg in legs:
         _add(model, leg)
-        limits = _chain_limits(leg)
-        lower += limits[:, 0].tolist()
-        upper += limits[:, 1].tolist()
     return Robot(
         model=model,
         urdf="",
         joints=tuple(model.names)[1:],
-        lower=np.array(lower),
-        upper=np.array(upper),
+        lower=np.array(model.lowerPositionLimit),
+        upper=np.array(model.upperPositionLimit),
         velocity=np.array(model.velocityLimit),
         effort=np.array(model.effortLimit),
         placement=np.eye(4),
