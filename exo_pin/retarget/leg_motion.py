@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.arrays import Array, Mask
+from exo_pin.ik.least_squares.rotation_vector import rotation_vector
 from exo_pin.robot import SubtreeArrays
 
 ANKLE_FIRST = (3e-3, 3e-4)
@@ -126,22 +127,12 @@ def _residual(task: LegTask, q: Array, attitude: float) -> tuple[Array, Array]:
     pose = task.arrays.pose(task.drive @ q.T)
     R, p = pose.R[0].transpose(2, 0, 1), pose.p[0].T
     ankle = R @ task.ankle + p
-    error = R @ np.swapaxes(task.attitudes, -1, -2)
+    turned = rotation_vector(task.attitudes.transpose(1, 2, 0), pose.R[0]).T
     axes, points = pose.axes.transpose(2, 1, 0), pose.points.transpose(2, 1, 0)  # (n, K, 3)
     moved = np.cross(axes, ankle[:, None] - points)
-    residual = np.concatenate([ankle - task.places, attitude * _vector(error)], axis=1)
+    residual = np.concatenate([ankle - task.places, attitude * turned], axis=1)
     full = np.concatenate([moved, attitude * axes], axis=2)  # (n, K, 6)
     return residual, np.einsum("nkc,kj->ncj", full, task.drive)
-
-
-def _vector(R: Array) -> Array:
-    """Rotation vectors (n, 3) of rotations (n, 3, 3) by less than half a turn [rad]."""
-    twist = 0.5 * np.stack(
-        [R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], axis=1
-    )
-    sine = np.linalg.norm(twist, axis=1)
-    angle = np.arctan2(sine, 0.5 * (np.trace(R, axis1=1, axis2=2) - 1.0))
-    return np.asarray(twist * np.where(sine > 1e-9, angle / np.maximum(sine, 1e-12), 1.0)[:, None])
 
 
 def _step(gradient: Array, blocks: Array, across: Array, free: Mask, damping: float) -> Array:

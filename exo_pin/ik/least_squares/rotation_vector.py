@@ -14,7 +14,7 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array, Index
 
-_Rotation = Sequence[Sequence[Array | float]]  # entry by entry, `R[i][j]` an array (m,) or a number
+_Rotation = Array | Sequence[Sequence[Array | float]]  # `R[i][j]` is an array (m,) or a number
 
 
 def rotation_vector(R: _Rotation, S: _Rotation) -> Array:
