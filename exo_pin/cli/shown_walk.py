@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exo_pin.cli import device_options, options, show, torque_options, walk_output
+from exo_pin.cli.answered_walk import AnsweredWalk, answered
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def read(args: argparse.Namespace) -> tuple[Body, Gait]:
 
 
 def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
-    """Recover the walk by inverse kinematics, print the residuals, and make the scene.
+    """Recover the walk by inverse kinematics, print residuals and verdicts, and make the scene.
 
     Args:
         args: The command line, with the arguments of `add`.
@@ -75,46 +76,56 @@ def scene(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     Raises:
         DescriptionError: Options contradict each other.
     """
-    return _exoskeleton(args, body, gait) if args.robot is None else _other_robot(args, body, gait)
+    if args.robot is not None:
+        return _other_robot(args, body, gait)
+    walk = answered(args, body, gait)
+    made, answer = exoskeleton_scene(args, body, walk), walk.answer
+    print(answer.sentence if walk.keeps_motion else f"{answer.loss_sentence}\n{answer.sentence}")
+    if _runs_off(answer, made):
+        print(answer.belt_warning)
+    return made
 
 
-def _exoskeleton(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
-    """The walk on the exoskeleton or another device, with the gait's own curves dashed."""
+def exoskeleton_scene(args: argparse.Namespace, body: Body, walk: AnsweredWalk) -> Scene:
+    """The walk on the exoskeleton or another device, with the gait's own curves dashed.
+
+    It prints the verdict on the walk and the solver's residuals; the device's answer is left to the command.
+
+    Args:
+        args: The command line, with the arguments of `add`, without `--robot`.
+        body: Who walks.
+        walk: As `answered` returns it.
+
+    Raises:
+        DescriptionError: Options contradict each other.
+    """
     from exo_pin import viewer
-    from exo_pin.robot import load_robot
 
-    torques = torque_options.given(args)
-    robot = load_robot(body, hip_order=args.hip_order)
-    gait, note = options.with_events(robot, gait)
-    verdict = options.plausibility(args, robot, gait)
+    gait, answer, verdict = walk.gait, walk.answer, walk.plausibility
     walk_output.print_plausibility(verdict)
     name = Path(args.gait).name
-    answer = device_options.answer(args, body, gait, hip_order=args.hip_order)
-    plain = not answer.device.locked and answer.conditions.pelvis == "recorded"
-    found = _recovered(robot, answer, name) if plain else _on_device(args, answer)
-    chosen = _scene_options(
-        args, body, name + found.title, [gait.source, note, *_judged(robot, gait, verdict), *found.notes]
-    )
+    found = _recovered(walk.robot, answer, name) if walk.keeps_motion else _on_device(args, answer)
+    notes = [gait.source, walk.events_note, *_judged(walk.robot, gait, verdict), *found.notes]
+    chosen = _scene_options(args, body, name + found.title, notes)
     if answer.conditions.pelvis == "device" and answer.device.pelvis != "free":
         chosen = dataclasses.replace(chosen, support="still")  # only the record's slides move the pelvis
     same = np.array_equal(gait.time, answer.gait.time)
-    scene = viewer.exoskeleton_scene(
+    made = viewer.exoskeleton_scene(
         found.robot,
         found.gait,
         chosen,
         reference=gait if same else answer.gait,
-        torques=torque_options.of_shown(torques, gait, answer.gait),
+        torques=walk.shown_torques,
     )
-    return _with_belt_warning(scene, answer)
+    if not _runs_off(answer, made):
+        return made
+    facts = dataclasses.replace(made.facts, notes=(answer.belt_warning, *made.facts.notes))
+    return dataclasses.replace(made, facts=facts)
 
 
-def _with_belt_warning(scene: Scene, answer: DeviceWalk) -> Scene:
-    """The scene with a warning where its belt runs faster or slower than the device's."""
-    if scene.facts.marks.belt is None or not answer.belt_warning:
-        return scene
-    notes = (answer.belt_warning, *scene.facts.notes)
-    print(answer.belt_warning)
-    return dataclasses.replace(scene, facts=dataclasses.replace(scene.facts, notes=notes))
+def _runs_off(answer: DeviceWalk, made: Scene) -> bool:
+    """Whether the scene's belt runs faster or slower than the device's."""
+    return made.facts.marks.belt is not None and bool(answer.belt_warning)
 
 
 def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
@@ -193,22 +204,20 @@ class _Recovered:
 
 
 def _recovered(robot: Robot, answer: DeviceWalk, name: str) -> _Recovered:
-    """The walk from its feet on the exoskeleton, and the verdict on it."""
+    """The walk from its feet on the exoskeleton."""
     from exo_pin import crosscheck
 
     recovery = crosscheck.recover(robot, answer.recorded if answer.verdict == "no" else answer.gait)
     _print(recovery, name)
-    print(answer.sentence)
     return _Recovered(robot, recovery.gait, "", [f"{answer.sentence}."])
 
 
 def _on_device(args: argparse.Namespace, answer: DeviceWalk) -> _Recovered:
-    """The device's best motion towards the feet, on a robot with its appearance, and the verdict on it."""
+    """The device's best motion towards the feet, on a robot with its appearance."""
     from exo_pin.compare import dressed
 
     if args.hip_order != "clinical":
         raise DescriptionError("--hip-order is for exo12; other devices are shown with clinical hips")
-    print(f"{answer.loss_sentence}\n{answer.sentence}")
     motion = answer.loss.motion
     title = f" on {answer.title.partition(' (')[0]}"
     notes = [f"{answer.sentence}.", answer.loss_sentence]

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING
 from exo_pin.cli import (
     body_options,
     device_options,
-    options,
     shot_options,
     show,
     shown_walk,
-    torque_options,
     trials,
 )
+from exo_pin.cli.answered_walk import AnsweredWalk, answered
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -24,7 +23,6 @@ from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
-    from exo_pin.gait import Gait
 
 _EXAMPLES = """examples:
   exo-pin report -o report.html
@@ -80,10 +78,8 @@ def run(args: argparse.Namespace) -> int:
     if not (math.isfinite(args.filter) and args.filter >= 0):
         raise DescriptionError(f"--filter is {args.filter:g}; a frequency in Hz, or 0 for none, is accepted")
     body, gait = shown_walk.read(args)
-    given = torque_options.given(args)
-    person = load_robot(body)
-    gait, note = options.with_events(person, gait)
-    answer = device_options.answer(args, body, gait, hip_order=args.hip_order)
+    walk = answered(args, body, gait)
+    answer, gait = walk.answer, walk.gait
     device = answer.device.carried()  # the gait itself says where the pelvis is
     robot = load_robot(body, device=device, hip_order=args.hip_order)
     shown = answer.gait if args.torques is None else gait
@@ -96,9 +92,9 @@ def run(args: argparse.Namespace) -> int:
         who=args.who,
         what=name,
         when=moment(),
-        choices=_choices(args, note),
+        choices=_choices(args, walk.events_note),
     )
-    player, still = ("", b"") if args.no_player else _player(args, body, gait)
+    player, still = ("", b"") if args.no_player else _player(args, body, walk)
     with show.busy("reporting"):
         document = report.walk(
             robot,
@@ -108,9 +104,9 @@ def run(args: argparse.Namespace) -> int:
             still=still,
             normal=None if args.normal == "none" else args.normal,
             cutoff=args.filter or None,
-            torques=torque_options.of_shown(given, gait, shown),
-            plausibility=options.plausibility(args, person, gait),
-            feet=trials.feet(args, person, gait),
+            torques=walk.shown_torques if device.locked else walk.torques,
+            plausibility=walk.plausibility,
+            feet=trials.feet(args, walk.robot, gait),
             answer=answer,
         )
         page = report.html(document)
@@ -119,12 +115,16 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _player(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[str, bytes]:
+def _player(args: argparse.Namespace, body: Body, walk: AnsweredWalk) -> tuple[str, bytes]:
     """The offline page as text, and its picture for paper if `--still` is given."""
     from exo_pin import viewer
     from exo_pin.viewer.film import shots
 
-    scene = shown_walk.scene(args, body, gait)
+    scene = (
+        shown_walk.exoskeleton_scene(args, body, walk)
+        if args.robot is None
+        else shown_walk.scene(args, body, walk.gait)
+    )
     still = (
         shots.picture(scene, phase=_STILL_PHASE, size=_STILL_SIZE, timeout=args.timeout)
         if args.still
