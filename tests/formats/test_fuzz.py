@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import time
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from exo_pin.anatomy import FEET, SIDES
 from exo_pin.errors import FormatError
@@ -27,10 +25,9 @@ from exo_pin.formats import (
 from exo_pin.formats.c3d import C3dFile
 from exo_pin.formats.c3d.reader import read_content
 from exo_pin.gait import Event, Gait, normative_gait
+from tests.damaged_files import FILES, SLOWEST, damaged, files_of_processes
 
-FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "40"))  # damaged files of each kind: CI has minutes
-FILES_C3D = FILES // 5 if "EXO_PIN_MUTATIONS" in os.environ else 15  # each costs a process
-SLOWEST = 5.0  # [s] of this process
+FILES_C3D = files_of_processes(5, 15)
 PIECES = [  # what hurts readers
     *(
         b"",
@@ -85,18 +82,6 @@ PIECES = [  # what hurts readers
         b"\xd9\xa1",
     ),
 ]
-
-
-@st.composite
-def damaged(draw, text):
-    """The file with a few places overwritten, cut out or filled in."""
-    data = bytearray(text)
-    for _ in range(draw(st.integers(1, 3))):
-        start = draw(st.integers(0, len(data)))
-        length = draw(st.sampled_from([0, 1, 2, 5, 20, 200]))
-        piece = draw(st.sampled_from(PIECES) | st.binary(max_size=4))
-        data[start : start + length] = piece
-    return bytes(data[: draw(st.sampled_from([len(data), len(data) // 2]))])
 
 
 LARGEST = {"angle": np.pi, "place": 1e4, "force": 1e5}  # [rad, m, N] what may be read at most
@@ -236,7 +221,7 @@ def test_damaged_files_are_read_or_refused_but_never_crash(tmp_path_factory, lab
     read(entry)
 
     @settings(max_examples=FILES_C3D if name.endswith(".c3d") else FILES, deadline=None)
-    @given(damaged(whole))
+    @given(damaged(whole, PIECES))
     def once(data):
         path.write_bytes(data)
         start = time.process_time()

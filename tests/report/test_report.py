@@ -272,6 +272,13 @@ def test_the_devices_motion_is_drawn_solid_and_the_persons_dashed(monkeypatch, t
         np.testing.assert_allclose(heights[1] - heights[0], scale * apart, atol=DRAWN)
 
 
+def test_a_report_with_its_player_prints_the_devices_answer_once(capsys, tmp_path):
+    assert cli.main(["report", "free", "-o", str(tmp_path / "page.html")]) == 0
+    answer = device_walk(normative_gait())
+    printed = capsys.readouterr().out.splitlines()
+    assert [printed.count(line) for line in (answer.sentence, answer.loss_sentence)] == [1, 1]
+
+
 def _drawn(drawing):
     """The dashed and the solid curves of a chart, `(n, 2)` [px], without axes, limits and legend."""
     dashed, solid = [], []

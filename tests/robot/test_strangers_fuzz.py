@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import time
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from exo_pin import description
 from exo_pin.anatomy import Body
@@ -20,10 +18,9 @@ from exo_pin.robot import load_urdf
 from exo_pin.robot.urdf_joints import followers
 from exo_pin.viewer.meshes.urdf_meshes import Meshes
 from exo_pin.viewer.scenes.link_nodes import linkage
+from tests.damaged_files import FILES, SLOWEST, damaged, files_of_processes
 
-FILES = int(os.environ.get("EXO_PIN_MUTATIONS", "40"))  # damaged files of each kind: CI has minutes
-FILES_XACRO = FILES // 10 if "EXO_PIN_MUTATIONS" in os.environ else 10  # each costs a process
-SLOWEST = 5.0  # [s] of this process
+FILES_XACRO = files_of_processes(10, 10)
 PIECES = [  # what hurts readers
     *(
         b"",
@@ -87,17 +84,6 @@ PIECES = [  # what hurts readers
     ),
     *(b"floating", b"continuous", b"prismatic", b"<mimic joint='j'/>", b"${2**10**9}", b"${", b"<xacro:m/>"),
 ]
-
-
-@st.composite
-def damaged(draw, text):
-    """The file with a few places overwritten, cut out or filled in."""
-    data = bytearray(text)
-    for _ in range(draw(st.integers(1, 3))):
-        start = draw(st.integers(0, len(data)))
-        length = draw(st.sampled_from([0, 1, 2, 5, 20, 200]))
-        data[start : start + length] = draw(st.sampled_from(PIECES) | st.binary(max_size=4))
-    return bytes(data[: draw(st.sampled_from([len(data), len(data), len(data) // 2]))])
 
 
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
@@ -214,7 +200,7 @@ def test_damaged_files_of_strangers_are_read_or_refused_in_one_line(tmp_path_fac
     use(path)
 
     @settings(max_examples=FILES_XACRO if name.endswith(".xacro") else FILES, deadline=None)
-    @given(damaged(whole))
+    @given(damaged(whole, PIECES, whole=2))
     def once(data):
         path.write_bytes(data)
         start = time.process_time()
