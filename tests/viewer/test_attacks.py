@@ -21,8 +21,6 @@ from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from exo_pin import cache, viewer
-from exo_pin.gait import normative_gait
-from exo_pin.robot import load_robot
 
 PATIENCE = 30.0  # [s]: what a busy machine may take
 AT_ONCE = 1.0  # [s]
@@ -67,17 +65,6 @@ async def run():
     await asyncio.gather(*(client() for _ in range(clients)))
 asyncio.run(run())
 """
-
-
-@pytest.fixture(scope="module")
-def scene():
-    return viewer.scene(load_robot(), normative_gait())
-
-
-@pytest.fixture
-def server(scene):
-    with viewer.serve(scene, port=0) as running:
-        yield running
 
 
 def status(server, path="/", method="GET", **headers):

@@ -20,11 +20,6 @@ MILLIMETRE = 1e-3
 VERTEX = 5e-6  # [m]: float32 metres, and the mean of a ring of them
 
 
-@pytest.fixture(scope="module")
-def scene(robot, gait):
-    return viewer.scene(robot, gait)
-
-
 def shown_base(scene):
     return np.array([pin.XYZQUATToSE3(row.astype(float)).homogeneous for row in scene.arrays["base"]])
 

@@ -21,11 +21,6 @@ HOSTILE = """</title><script>alert("1")</script>&'{{engine}}"""
 LARGEST = {False: 1_500_000, True: 2_000_000}  # bytes of an offline page without and with the wearer
 
 
-@pytest.fixture(scope="module")
-def scene():
-    return viewer.scene(load_robot(), normative_gait())
-
-
 def chunks(packed):
     data, at, out = gzip.decompress(packed), 0, []
     while at < len(data):

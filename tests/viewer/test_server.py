@@ -17,8 +17,6 @@ from tornado.websocket import websocket_connect
 
 from exo_pin import viewer
 from exo_pin.errors import ExoPinError
-from exo_pin.gait import normative_gait
-from exo_pin.robot import load_robot
 
 PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
 FLOOD = 400  # requests at once
@@ -26,17 +24,6 @@ WARM_UP, MINUTE, BATCH = 600, 3600, 60  # poses; a minute at 60 a second
 GROWTH = 20_000  # [bytes]: a pose is 76 bytes long; keeping one byte in ten of each would show
 POSE_COST = 0.15e-3  # [s] of Python per live pose
 STATE = {"type": "state", "time": 0.5, "playing": False, "speed": 0.5, "loop": True, "view": "left"}
-
-
-@pytest.fixture(scope="module")
-def scene():
-    return viewer.scene(load_robot(), normative_gait())
-
-
-@pytest.fixture
-def server(scene):
-    with viewer.serve(scene, port=0) as running:
-        yield running
 
 
 def query(server):
