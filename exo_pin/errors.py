@@ -134,6 +134,10 @@ def naming_file(path: str | Path, *, line: int | None = None) -> Iterator[None]:
         raise FormatError(path, str(error), line=line) from error
 
 
+class DamagedMeshError(ValueError):
+    """A mesh cannot be used, with a reason; the reader of mesh files adds the file in a `FormatError`."""
+
+
 class LimitError(ExoPinError):
     """A joint value lies outside its limits.
 

@@ -13,10 +13,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from exo_pin.arrays import Array, Index
-from exo_pin.errors import FormatError
+from exo_pin.errors import DamagedMeshError, FormatError
 from exo_pin.gait.rigid_poses import about
 from exo_pin.safe.xml_reader import XmlLimits, parse_xml
-from exo_pin.viewer.meshes.damaged import DamagedMeshError
 
 _Color = tuple[float, float, float, float]
 _Triangles = tuple[Array, Index, _Color | None]

@@ -16,9 +16,8 @@ from types import MappingProxyType
 import numpy as np
 
 from exo_pin.arrays import Array, Index
-from exo_pin.errors import FormatError
+from exo_pin.errors import DamagedMeshError, FormatError
 from exo_pin.files import read_bytes
-from exo_pin.viewer.meshes.damaged import DamagedMeshError
 from exo_pin.viewer.meshes.solids import Color
 
 _BINARY = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -77,7 +76,7 @@ def read(path: Path) -> list[MeshPart]:
 
 
 def _judge(path: Path, parts: list[MeshPart]) -> None:
-    """Refuse places that are none, corners that do not exist, and too many triangles."""
+    """Refuse corners too far away or not finite, corners that do not exist, and too many triangles."""
     if sum(len(part.faces) for part in parts) > MOST_TRIANGLES:
         raise FormatError(path, f"more than {MOST_TRIANGLES} triangles")
     for part in parts:
