@@ -67,7 +67,7 @@ def _locked(path: Path, *, wait: bool) -> int:
 
     Args:
         path: The folder.
-        wait: Whether it is a new folder of this run: wait for the lock, and do without where there is none.
+        wait: Whether it is a new folder of this run: wait for the lock; no error where the system has none.
     """
     if sys.platform == "win32":  # it has no such locks: nothing is swept there
         return os.open(os.devnull, os.O_RDONLY) if wait else -1

@@ -73,7 +73,7 @@ def add_address(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-token",
         action="store_true",
-        help="an address without a token: whoever reaches the port can watch",
+        help="an address without a token: everybody who reaches the port can watch",
     )
     parser.add_argument("--no-open", action="store_true", help="print the address, open no browser")
 

@@ -38,7 +38,7 @@ def number(text: str) -> float:
     """A number with a decimal point or a comma.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It is no number.
     """
     return plain_numbers.number(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
 

@@ -177,7 +177,7 @@ def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
 
 
 def _on_one_thread(case: Case) -> Outcome:
-    """The outcome of a case: sums in linear algebra round alike whoever solves it."""
+    """The outcome of a case: sums in linear algebra round alike in every process."""
     from threadpoolctl import threadpool_limits
 
     importlib.import_module("scipy.linalg")  # its own library of linear algebra must be there to be limited

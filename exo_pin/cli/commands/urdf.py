@@ -31,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("assignments", nargs="*", metavar="name:=value", help="sizes and xacro arguments")
     parser.add_argument("--device", metavar="DEVICE", help="name or device file (default: exo12)")
     options.add_hip_order(parser)
-    parser.set_defaults(hip_order=None)  # told from one that is given: name:=value may give another
+    parser.set_defaults(hip_order=None)  # None: not given, so name:=value may give it
     options.add_body(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="write here instead of to the terminal")
 

@@ -1,6 +1,6 @@
 """A client of the DevTools protocol over two pipes: JSON messages, each with a zero byte at its end.
 
-It has no thread and no event loop: whoever calls it waits, and a signal ends the wait at once.
+It has no thread and no event loop: the caller waits, and a signal ends the wait at once.
 """
 
 from __future__ import annotations

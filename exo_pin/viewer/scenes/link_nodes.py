@@ -109,7 +109,7 @@ def linkage(
     try:
         return _Nesting(urdf_tree.parsed(urdf), paint, meshes).below(root)
     except (ValueError, RecursionError) as error:
-        raise DescriptionError("the URDF cannot be drawn: a number in it is none") from error
+        raise DescriptionError("the URDF cannot be drawn: a number in it cannot be read") from error
 
 
 class _Nesting:
