@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import shutil
 import stat
 import sys
@@ -35,7 +34,7 @@ def folder(parent: Path | None = None) -> Iterator[Path]:
     """
     parent = Path(tempfile.gettempdir()) if parent is None else parent
     sweep(parent)
-    path, lock = parent / f"{_PREFIX}{secrets.token_hex(6)}", -1
+    path, lock = parent / f"{_PREFIX}{os.urandom(6).hex()}", -1
     try:
         while lock < 0:  # once; again where another run swept the folder before it was locked
             path.mkdir(0o700)

@@ -13,7 +13,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from exo_pin import scratch
 from exo_pin.cli import stopping
 from exo_pin.cli.parser import Parser
 from exo_pin.cli.plain_output import plain_output
@@ -104,6 +103,8 @@ def _run(words: list[str]) -> int:
         if args.command is None:
             parser.print_help()
             return 0
+        from exo_pin import scratch
+
         scratch.sweep()
         code: int = _module(args.command).run(args)
         return code
