@@ -79,7 +79,7 @@ def run(
     done = {} if path is None else _kept(Path(path), wanted, restart)
     kept, failures = len(done) * len(MOTIONS), {}
     todo = [rest for case in cases if (rest := case.without(done)).parts]
-    with _appending(path, done) as append:
+    with _one_thread(), _appending(path, done) as append:
         for outcome in progress(chain(failed, _solved(todo, jobs)), len(failed) + len(todo)):
             if outcome.failure:
                 failures[outcome.case.gait] = outcome.failure
@@ -176,12 +176,23 @@ def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
         yield from outcomes
 
 
-def _on_one_thread(case: Case) -> Outcome:
-    """The outcome of a case: sums in linear algebra round alike in every process."""
+@contextlib.contextmanager
+def _one_thread() -> Iterator[None]:
+    """Linear algebra on one thread: its sums round alike whoever solves a case.
+
+    The limit holds for a whole process. A worker that is a process of its own sets it for each case; workers
+    that are threads share the one of the run, which none of them lifts before the others are done.
+    """
     from threadpoolctl import threadpool_limits
 
     importlib.import_module("scipy.linalg")  # its own library of linear algebra must be there to be limited
     with threadpool_limits(limits=1):
+        yield
+
+
+def _on_one_thread(case: Case) -> Outcome:
+    """The outcome of a case."""
+    with _one_thread():
         return solve(case)
 
 
