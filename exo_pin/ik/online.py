@@ -18,6 +18,7 @@ from exo_pin.ik.least_squares.nearest_posture import NearestPosture, bare_legs
 from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
 from exo_pin.ik.targets import is_pose, pose_array
 from exo_pin.robot import Robot
+from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 from exo_pin.robot.subtree import frame_index
 
@@ -156,13 +157,13 @@ class Online:
         if base is None and robot.base == "fixed":
             return None
         if base is None:
-            T = pin.XYZQUATToSE3(self.q[:7]).homogeneous
+            T = base_poses(self.q)
         else:
             T = _asarray(base, float)
             if T.shape != (4, 4) or not is_pose(T.ravel().tolist()):
                 T = pose_array("base", T[None])[0]  # straightened, or refused with the reason
             if robot.base == "floating":
-                self.q[:7] = pin.SE3ToXYZQUAT(pin.SE3(T))
+                self.q[:FREE] = base_coordinates(T)
             self._base = T
         inverse = np.eye(4)
         inverse[:3, :3], inverse[:3, 3] = T[:3, :3].T, -T[:3, :3].T @ T[:3, 3]

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import pinocchio as pin
 
 from exo_pin.arrays import Array, Index, as_floats, beside, filled, to_host
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
 from exo_pin.robot import LegAxes, Robot, Subtree
+from exo_pin.robot.floating_base import FREE, base_coordinates
 
 SOLVED_BY = ("closed_form", "dls")
 """Names of the solvers; the later one counts where legs differ."""
@@ -139,7 +139,7 @@ def problem(
     rest, seed = _start(robot, q0, n, groups)
     if robot.base == "floating" and held is not None:
         rest = np.broadcast_to(rest, (n, robot.nq)).copy()
-        rest[:, :7] = [pin.SE3ToXYZQUAT(pin.SE3(T)) for T in np.broadcast_to(held, (n, 4, 4))]
+        rest[:, :FREE] = np.atleast_2d(base_coordinates(to_host(held)))
     return Problem(robot, tuple(goals), n, groups, rest, seed)
 
 
@@ -156,7 +156,7 @@ def _start(
 ) -> tuple[Array, Array]:
     """Configuration of the joints that move no target, and seed: mid-range where there is no q0."""
     if q0 is not None:
-        q = as_floats(q0)
+        q = to_host(as_floats(q0))
         if q.shape not in ((robot.nq,), (n, robot.nq)):
             raise DescriptionError(f"q0 has shape {q.shape}; ({robot.nq},) or ({n}, {robot.nq}) is accepted")
         if not np.isfinite(q).all():
@@ -170,6 +170,6 @@ def _start(
     for subtree in groups:
         middle = subtree.middle
         if subtree.floating:
-            middle[:7] = rest[:7]
+            middle[:FREE] = rest[:FREE]
         seed[subtree.columns] = middle
     return rest, seed

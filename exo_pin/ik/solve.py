@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arrays import as_floats, to_host
 from exo_pin.errors import ConvergenceError, DescriptionError, UnknownNameError
 from exo_pin.ik.least_squares import dls
 from exo_pin.ik.leg import batch
@@ -54,9 +55,11 @@ def track(
         DescriptionError: A shape, number or matrix is wrong; the message names the target and the sample.
     """
     solver, like = _solver(settings), remote_array(targets)
-    if like is None or stays_remote(robot, targets, settings):
+    base_moves = robot.base == "floating" and base is None
+    if like is None or (stays_remote(robot, targets, settings) and not base_moves):
         return solver(problem(robot, targets, q0, base), settings)
-    return copied_back(solver(problem(robot, on_host(targets), q0, base), settings), like)
+    held = None if base is None else to_host(as_floats(base))
+    return copied_back(solver(problem(robot, on_host(targets), q0, held), settings), like)
 
 
 def solve(

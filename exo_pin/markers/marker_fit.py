@@ -16,6 +16,7 @@ from exo_pin.kinematics import poses
 from exo_pin.markers.marker_places import MarkerPlaces
 from exo_pin.markers.rigid_fit import rigid_fit
 from exo_pin.robot import Robot
+from exo_pin.robot.floating_base import base_coordinates
 
 _KNEE_SEED = 0.2
 """Knees at the start of the search [rad]: a straight leg hides which way it bends."""
@@ -83,13 +84,6 @@ def _start(robot: Robot, places: MarkerPlaces, paths: Mapping[str, Array]) -> Ar
         raise GaitError("the pelvis's markers are never seen together")
     nearest = good[np.abs(good[:, None] - np.arange(len(T))).argmin(axis=0)]
     q = np.tile(robot.neutral, (len(T), 1))
-    q[:, : robot.nq - len(robot.joints)] = _floating(T[nearest])
+    q[:, : robot.nq - len(robot.joints)] = base_coordinates(T[nearest])
     q[:, [robot.column(f"{side}_knee_flexion") for side in SIDES]] = _KNEE_SEED
     return q
-
-
-def _floating(T: Array) -> Array:
-    """`(n, 7)` position and quaternion x, y, z, w of poses, as a floating base has them."""
-    import pinocchio as pin
-
-    return np.array([pin.SE3ToXYZQUAT(pin.SE3(pose)) for pose in T])

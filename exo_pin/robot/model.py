@@ -21,6 +21,7 @@ from exo_pin.arrays import Array, Mask, as_floats
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
+from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses, unit_quaternion
 from exo_pin.robot.leg_axes import LegAxes, read_leg
 from exo_pin.robot.subtree import (
     Subtree,
@@ -30,8 +31,6 @@ from exo_pin.robot.subtree import (
     supporting_joints,
 )
 
-_FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
-_UNIT, _NO_ATTITUDE = 1e-12, 1e-6  # of a quaternion: length 1 but for rounding; no direction is left
 _HIPS = HIP_ORDERS["clinical"]
 
 LIMIT_TOLERANCE = 1e-9
@@ -95,7 +94,7 @@ class Robot:
         """The configuration (nq,) with all joints at zero; a floating base stands at `placement`."""
         q = np.zeros(self.nq)
         if self.base == "floating":
-            q[:_FREE] = pin.SE3ToXYZQUAT(pin.SE3(self.placement))
+            q[:FREE] = base_coordinates(self.placement)
         return q
 
     def frame(self, name: str) -> int:
@@ -149,16 +148,7 @@ class Robot:
         Raises:
             DescriptionError: A quaternion is zero: it is no attitude.
         """
-        if self.base == "fixed" or not q.size:
-            return q
-        length = np.linalg.norm(q[..., 3:_FREE], axis=-1, keepdims=True)
-        if (length < _NO_ATTITUDE).any():
-            raise DescriptionError(
-                "the quaternion of the floating base (q[3:7]: x y z w) is zero; 0 0 0 1 is upright"
-            )
-        if (np.abs(length - 1.0) <= _UNIT).all():
-            return q
-        return np.concatenate([q[..., :3], q[..., 3:_FREE] / length, q[..., _FREE:]], axis=-1)
+        return q if self.base == "fixed" else unit_quaternion(q)
 
     def outside(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> Mask:
         """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
@@ -243,7 +233,7 @@ class Robot:
         """
         q = np.tile(self.neutral, (len(gait.q), 1))
         if self.base == "floating" and gait.base is not None:
-            q[:, :_FREE] = [pin.SE3ToXYZQUAT(pin.SE3(T)) for T in gait.base]
+            q[:, :FREE] = base_coordinates(gait.base)
         mine, columns = self._columns
         q[:, columns] = _in_order(gait.q, source="clinical", target=self.hip_order)[:, mine]
         return q
@@ -260,7 +250,7 @@ class Robot:
         q = np.asarray(q, dtype=float)
         base = like.base
         if self.base == "floating":
-            base = np.array([pin.XYZQUATToSE3(x).homogeneous for x in q[:, :_FREE]])
+            base = base_poses(unit_quaternion(q))
         elif any(slide in self.joints for slide in SLIDES):
             base = (self.placement if base is None else base) @ self.slid(q)
         mine, columns = self._columns

@@ -11,9 +11,9 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.arrays import Array, Index
+from exo_pin.robot.floating_base import FREE
 from exo_pin.robot.subtree_arrays import SubtreeArrays, read_arrays
 
-_FREE = 7  # numbers of a floating base in q: position, quaternion (x, y, z, w)
 _LINK = " (link)"  # added for a moment to the name of a link that a joint has too
 
 
@@ -110,7 +110,7 @@ def read_subtree(
     columns = [c for j in sorted(joints) for c in range(model.idx_qs[j], model.idx_qs[j] + model.nqs[j])]
     lower, upper = np.array(reduced.lowerPositionLimit), np.array(reduced.upperPositionLimit)
     if floating:
-        lower[:_FREE], upper[:_FREE] = -np.inf, np.inf
+        lower[:FREE], upper[:FREE] = -np.inf, np.inf
     ids = tuple(frame_index(reduced, name) for name in frames)
     return Subtree(reduced, frames, ids, np.array(columns, dtype=int), lower, upper, floating)
 

@@ -12,8 +12,8 @@ from exo_pin.errors import FormatError, UnknownNameError
 from exo_pin.formats import PRESETS, load_gait, save_gait
 from exo_pin.formats.opensim.pelvis_axes import from_opensim, pelvis_joint, to_opensim
 from exo_pin.formats.opensim.storage import read_storage
-from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait.quaternions import rotations
 
 OPENSIM_PRESETS = [name for name in PRESETS if name.startswith("opensim")]
 ROUND_TRIP = 1e-12  # [rad, m]

@@ -8,8 +8,8 @@ import pytest
 from exo_pin.anatomy import FEET
 from exo_pin.errors import FormatError, GaitError, UnknownNameError
 from exo_pin.formats import Poses, load_poses, save_poses
-from exo_pin.formats.tables.pose_columns import quaternions, rotations
 from exo_pin.gait import Event
+from exo_pin.gait.quaternions import quaternions, rotations
 
 ROUND_TRIP = 1e-12  # [m, -]
 N = 50

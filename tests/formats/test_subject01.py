@@ -11,7 +11,7 @@ from exo_pin import ik
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.formats import load_gait
 from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
-from exo_pin.formats.tables.pose_columns import rotations
+from exo_pin.gait.quaternions import rotations
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exo_pin.errors import GaitError
-from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.gait import zeni
+from exo_pin.gait.quaternions import rotations
 
 PERIOD = 1.1
 STANCE = 0.6  # of the cycle

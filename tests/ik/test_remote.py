@@ -12,7 +12,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.kinematics import poses
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, load_robot
 from tests.remote_array import RemoteArray
 
 FEET = ("left_foot", "right_foot")
@@ -80,6 +80,20 @@ def test_a_moving_pelvis_may_live_on_the_accelerator_or_the_host(
     for base in (gait.base, RemoteArray(gait.base)):
         far = ik.track(robot, _remote(world), base=base)
         np.testing.assert_array_equal(_host(far.q), near.q)
+
+
+def test_a_floating_pelvis_held_or_free_is_answered_from_the_accelerator(gait: Gait) -> None:
+    robot = load_robot(base="floating")
+    q = robot.from_gait(gait)[:20]
+    T = poses(robot, q)
+    targets, base = {name: T[:, f] for f, name in enumerate(FEET)}, gait.base
+    assert base is not None
+    for held in (base[:20], base[0], None):
+        near = ik.track(robot, targets, q[0], base=held)
+        for start in (q[0], RemoteArray(q[0])):
+            there = None if held is None else RemoteArray(held)
+            far = ik.track(robot, _remote(targets), start, base=there)
+            np.testing.assert_array_equal(_host(far.q), near.q)
 
 
 def test_a_card_gives_the_answers_of_the_host(robot: Robot, targets: dict[str, Array]) -> None:

@@ -16,10 +16,10 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.tables.metadata import Metadata, to_gait
-from exo_pin.formats.tables.pose_columns import rotations
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.xsens.mvnx_frames import MvnxFrames, read_frames
 from exo_pin.gait import Event, Gait
+from exo_pin.gait.quaternions import rotations
 
 _ANGLES: Mapping[Movement, tuple[str, int, int]] = MappingProxyType(
     {

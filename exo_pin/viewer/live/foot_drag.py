@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import pinocchio as pin
 
 from exo_pin import ik
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot, load_urdf
+from exo_pin.robot.floating_base import base_poses
 from exo_pin.viewer.live.messages import Reached, ReachRequest
 
 ROTATION_WEIGHT = 0.1
@@ -63,5 +63,5 @@ def _solve(robot: Robot, targets: dict[str, ik.Pose], start: Array) -> ik.Track:
 
 
 def _target(pose: tuple[float, ...]) -> ik.Pose:
-    T = pin.XYZQUATToSE3(np.array(pose)).homogeneous
+    T = base_poses(np.array(pose))
     return ik.Pose(T[None], rotation_weight=ROTATION_WEIGHT)

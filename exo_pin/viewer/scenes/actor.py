@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 
 from exo_pin.arrays import Array
+from exo_pin.robot.floating_base import base_coordinates
 from exo_pin.viewer.drawing_commands import Command, Material
 from exo_pin.viewer.scenes.scene import Chain, Group
 
@@ -67,7 +67,7 @@ def chain_samples(chain: Chain, angles: Mapping[str, Array], base: Array) -> dic
 
 def flat_poses(T: Array) -> Array:
     """Poses `(n, 4, 4)` as `(n, 7)`: x y z [m], unit quaternion x y z w that never jumps to its negative."""
-    rows = np.array([pin.SE3ToXYZQUAT(pin.SE3(pose)) for pose in T])
+    rows = base_coordinates(T)
     flipped = np.einsum("nk,nk->n", rows[1:, 3:], rows[:-1, 3:]) < 0
     rows[1:, 3:] *= np.cumprod(np.where(flipped, -1.0, 1.0))[:, None]
     return rows

@@ -20,7 +20,7 @@ from exo_pin.gait import Gait
 from exo_pin.viewer.drawing_commands import Command, mesh, place, translucent
 from exo_pin.viewer.meshes import solids
 from exo_pin.viewer.meshes.solids import Solid, sphere, translation
-from exo_pin.viewer.scenes.actor import Actor
+from exo_pin.viewer.scenes.actor import Actor, flat_poses
 from exo_pin.viewer.scenes.person_figure import part, scaled
 from exo_pin.viewer.scenes.scene import Chain, Group, JointNode
 
@@ -167,9 +167,9 @@ def _swing(gait: Gait) -> Array:
 
 def _trunk(base: Array, size: float) -> Array:
     """`(n, 7)` pose of the trunk: on the pelvis, with a fifth of its roll and tilt."""
-    rows = []
-    for T in base:
+    trunk = base.copy()
+    for T in trunk:
+        T[:3, 3] += size * T[:3, :3] @ _LUMBAR
         roll, pitch, yaw = pin.rpy.matrixToRpy(T[:3, :3])
-        upright = pin.rpy.rpyToMatrix(0.2 * roll, 0.2 * pitch, yaw)
-        rows.append(pin.SE3ToXYZQUAT(pin.SE3(upright, T[:3, 3] + size * T[:3, :3] @ _LUMBAR)))
-    return np.array(rows)
+        T[:3, :3] = pin.rpy.rpyToMatrix(0.2 * roll, 0.2 * pitch, yaw)
+    return flat_poses(trunk)
