@@ -39,6 +39,7 @@ LONGEST_MESSAGE = 300
 _LONGEST_LIST = 180  # characters of the known names in a message
 _LONGEST_NAME = 60
 _LONGEST_PATH = 120
+_LONGEST_WHY = 290
 
 
 def shortened(text: str, most: int = LONGEST_MESSAGE) -> str:
@@ -109,10 +110,17 @@ class FormatError(GaitError):
     """
 
     def __init__(self, path: str | Path, why: str, *, line: int | None = None) -> None:
-        self.path, self.why, self.line = Path(path), why, line
+        self.path, self.why, self.line = Path(path), _without_middle(why), line
         shown = str(path) if len(str(path)) <= _LONGEST_PATH else f"... {str(path)[-_LONGEST_PATH:]}"
         place = f"{shown}:{line}" if line is not None else shown
-        super().__init__(f"{place}: {why}")
+        super().__init__(f"{place}: {self.why}")
+
+
+def _without_middle(why: str) -> str:
+    """A reason that repeats a long text of the file: its beginning and its end, where the cure stands."""
+    if len(why) <= _LONGEST_WHY:
+        return why
+    return f"{why[: _LONGEST_WHY // 3]} ... {why[-_LONGEST_WHY // 2 :]}"
 
 
 @contextlib.contextmanager

@@ -136,17 +136,30 @@ def write_bytes(path: str | Path, data: bytes) -> None:
         raise FormatError(shown, f"cannot be written: {_reason(error)}") from error
 
 
+def write_private(path: str | Path, data: bytes) -> None:
+    """Write a file that its owner alone can read, all or nothing; a link of that name is replaced.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    _replace(Path(path), data, private=True)
+
+
 def json_number(value: float) -> float | None:
     """A number for JSON, which knows no NaN: None (`null`) stands for it."""
     return None if math.isnan(value) else float(value)
 
 
-def _replace(target: Path, data: bytes) -> None:
+def _replace(target: Path, data: bytes, *, private: bool = False) -> None:
+    def opened(name: str, flags: int) -> int:
+        return os.open(name, flags, 0o600 if private else 0o666)
+
     draft = target.with_name(f".{target.name[:99]}.{secrets.token_hex(4)}.part")
     try:
-        with draft.open("xb") as file:  # x: never into a file or link that somebody else has put there
+        # x: never into a file or link that somebody else has put there
+        with open(draft, "xb", opener=opened) as file:
             file.write(data)
-        if target.exists():
+        if target.exists() and not private:
             draft.chmod(target.stat().st_mode & 0o777)
         draft.replace(target)
     except BaseException:  # an interrupted write must not leave its draft behind either

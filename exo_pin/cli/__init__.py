@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from exo_pin.cli import stopping
+from exo_pin.cli import kept_results, stopping
 from exo_pin.cli.parser import Parser
 from exo_pin.cli.plain_output import plain_output
 from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError, shortened
@@ -41,6 +41,7 @@ COMMANDS = {
     "retarget": "a walk as joint angles of a humanoid",
     "feasible": "whether a device can do a walk with a person",
     "dh": "the Denavit-Hartenberg table for a body",
+    "cache": "what is kept between runs, and its deletion",
 }
 """Commands and their help; each is a module of `commands`: `configure(parser)`, `run(args) -> exit code`."""
 
@@ -92,6 +93,13 @@ def _answered(words: list[str]) -> int:
 
 
 def _run(words: list[str]) -> int:
+    """Run the words, with or without the cache; the exit code."""
+    words, cache = kept_results.chosen(words)
+    with cache:
+        return _run_command(words)
+
+
+def _run_command(words: list[str]) -> int:
     """Parse the words and run the command; its exit code."""
     if len(words) == 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
         if not Path(words[0]).suffix and not Path(words[0]).exists():
@@ -106,6 +114,8 @@ def _run(words: list[str]) -> int:
         from exo_pin import scratch
 
         scratch.sweep()
+        if args.command != "cache":  # it says so itself
+            kept_results.print_refusal()
         code: int = _module(args.command).run(args)
         return code
 
@@ -134,6 +144,9 @@ def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"exo-pin {__version__}")
+    parser.add_argument(
+        kept_results.OPTION, action="store_true", help="keep nothing between runs, use nothing that was kept"
+    )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
     for name, summary in COMMANDS.items():
         command = commands.add_parser(

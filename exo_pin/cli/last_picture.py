@@ -101,7 +101,7 @@ def _address() -> argparse.ArgumentParser:
 
 def _name(words: Sequence[str]) -> str:
     files = (part for word in words for part in (word, word.partition("=")[2]) if part)
-    code = (path for path in sorted(Path(cache.__file__).parent.rglob("*")) if path.suffix in _CODE)
+    code = (path for path in sorted(Path(cache.__file__).parents[1].rglob("*")) if path.suffix in _CODE)
     return cache.key((os.getcwd(), *words, *_states(files), *_states(map(str, code))))
 
 
