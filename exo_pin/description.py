@@ -15,7 +15,7 @@ import numpy as np
 from exo_pin import cache, devices
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
-from exo_pin.anatomy.names import HipOrder
+from exo_pin.anatomy.names import HipOrder, Masses
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
@@ -52,7 +52,12 @@ def sources() -> Path:
 
 
 def arguments(
-    body: Body, *, device: str | Device = "exo12", hip_order: HipOrder = "clinical", **overrides: str
+    body: Body,
+    *,
+    device: str | Device = "exo12",
+    hip_order: HipOrder = "clinical",
+    masses: Masses = "both",
+    **overrides: str,
 ) -> dict[str, str]:
     """Every xacro argument as text, in the order of urdf/arguments.xacro.
 
@@ -60,6 +65,7 @@ def arguments(
         body: Sizes, masses and joint ranges.
         device: A device, its name, or a TOML file that holds one.
         hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        masses: Whose masses the links have: `"wearer"`, `"device"` or `"both"`.
         **overrides: Single arguments, e.g. `left_thigh_link_mass="12.5"`.
 
     Raises:
@@ -70,7 +76,7 @@ def arguments(
         raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
     found = devices.find(device)
     values = _structure(found, hip_order) | {name: _text(getattr(body, name)) for name in _SIZES}
-    for link, part in link_inertias(body, toes=found.toes, stand=found.stand).items():
+    for link, part in link_inertias(body, toes=found.toes, stand=found.stand, masses=masses).items():
         values |= _inertial(link, part)
     for joint in (*JOINTS, *found.added):
         values |= _limits(body, found, joint)
@@ -84,7 +90,12 @@ def arguments(
 
 
 def urdf(
-    body: Body, *, device: str | Device = "exo12", hip_order: HipOrder = "clinical", **overrides: str
+    body: Body,
+    *,
+    device: str | Device = "exo12",
+    hip_order: HipOrder = "clinical",
+    masses: Masses = "both",
+    **overrides: str,
 ) -> str:
     """The URDF text of the exoskeleton for this body: the same bytes for the same arguments everywhere.
 
@@ -92,6 +103,7 @@ def urdf(
         body: Sizes, masses and joint ranges.
         device: A device, its name, or a TOML file that holds one.
         hip_order: `"clinical"` or `"yaw_roll_pitch"`.
+        masses: Whose masses the links have: `"wearer"`, `"device"` or `"both"`.
         **overrides: Single xacro arguments, e.g. `left_thigh_link_mass="12.5"`.
 
     Raises:
@@ -99,7 +111,8 @@ def urdf(
         DescriptionError: An override is no plausible number, an inertia is not physical, or xacro fails.
     """
     found = devices.find(device)
-    return expand(arguments(body, device=found, hip_order=hip_order, **overrides), name=found.name)
+    values = arguments(body, device=found, hip_order=hip_order, masses=masses, **overrides)
+    return expand(values, name=found.name)
 
 
 def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:

@@ -7,15 +7,17 @@ parallel-axis theorem.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from exo_pin.anatomy import anthropometry
 from exo_pin.anatomy.body import Body, Leg
-from exo_pin.anatomy.names import CORNERS, FEET, SIDES, Sex
+from exo_pin.anatomy.names import CORNERS, FEET, SIDES, Masses, Sex
 from exo_pin.arrays import Array
+from exo_pin.errors import DescriptionError, UnknownNameError
 
 
 class Inertial(NamedTuple):
@@ -51,10 +53,14 @@ def total(parts: Iterable[Inertial]) -> Inertial:
     return Inertial(mass, centre, inertia)
 
 
-def link_inertias(body: Body, *, toes: bool = False, stand: Sequence[str] = ()) -> dict[str, Inertial]:
+def link_inertias(
+    body: Body, *, toes: bool = False, stand: Sequence[str] = (), masses: Masses = "both"
+) -> dict[str, Inertial]:
     """Mass, centre and inertia of each link by link name: carriages, pelvis, six links a leg, frames.
 
-    The masses sum up to `Body.total_mass`: frames take theirs from foot plates, the stand from the pelvis.
+    The masses sum up to `Body.total_mass`: frames take theirs from foot plates, the stand from the pelvis. Of
+    the wearer alone they sum up to `Body.mass`: links that are hardware only weigh as little as a frame,
+    which the upper body gives.
 
     Args:
         body: Sizes and masses.
@@ -62,10 +68,27 @@ def link_inertias(body: Body, *, toes: bool = False, stand: Sequence[str] = ()) 
             wearer's foot then stays with the sole plate.
         stand: Names of the links that carry the pelvis, all in its place at q = 0: the stand itself, which is
             fixed and weighs as little as a frame, then its carriages.
+        masses: Whose masses: the wearer's, the device's, or both as far as `body.wearer` has them.
+
+    Raises:
+        DescriptionError: The wearer's masses of a bare device.
+        UnknownNameError: There are no such masses.
     """
+    if masses not in get_args(Masses):
+        raise UnknownNameError("masses", str(masses), get_args(Masses))
+    if masses == "wearer":
+        return _wearer_links(body, toes=toes, stand=stand)
+    if masses == "device":
+        body = dataclasses.replace(body, wearer=False)
+    return _worn_links(body, toes=toes, stand=stand)
+
+
+def _worn_links(body: Body, *, toes: bool, stand: Sequence[str]) -> dict[str, Inertial]:
+    """The device's links, with the wearer's masses unless the body is the bare device's."""
     masses = {name: _CARRIAGE * body.pelvis_hardware if k else FRAME.mass for k, name in enumerate(stand)}
     links = {name: _bracket(mass) for name, mass in masses.items()}
-    links["pelvis"] = total([*_upper_body(body), _waist(body, body.pelvis_hardware - sum(masses.values()))])
+    upper = _upper_body(body, body.upper_mass) if body.wearer else []
+    links["pelvis"] = total([*upper, _waist(body, body.pelvis_hardware - sum(masses.values()))])
     for side, s in zip(SIDES, (1.0, -1.0), strict=True):
         leg = body.leg(side)
         for name, parts in _leg(body, leg, s).items():
@@ -75,6 +98,20 @@ def link_inertias(body: Body, *, toes: bool = False, stand: Sequence[str] = ()) 
             worn = _wearer_leg(body, leg)["sole_plate"] if body.wearer else []
             links |= {f"{side}_sole_plate": total([back, *worn]), f"{side}_toe_plate": front}
     return links | dict.fromkeys((*FEET, *CORNERS), FRAME)
+
+
+def _wearer_links(body: Body, *, toes: bool, stand: Sequence[str]) -> dict[str, Inertial]:
+    """The same links with the wearer's masses alone."""
+    if not body.wearer:
+        raise DescriptionError("the body is a bare device's (wearer = false): it has no wearer's masses")
+    toe_plates = [f"{side}_toe_plate" for side in SIDES] if toes else []
+    links = dict.fromkeys((*stand, *toe_plates, *FEET, *CORNERS), FRAME)
+    for side in SIDES:
+        worn = _wearer_leg(body, body.leg(side))
+        for name in ("hip_1", "hip_2", "thigh", "shank", "ankle", "sole_plate"):
+            links[f"{side}_{name}"] = total(worn.get(name, [FRAME]))
+    given = FRAME.mass * sum(part.mass == FRAME.mass for part in links.values())
+    return links | {"pelvis": total(_upper_body(body, body.upper_mass - given))}
 
 
 def _plate_mass(body: Body) -> float:
@@ -128,10 +165,8 @@ def _wearer_leg(body: Body, leg: Leg) -> dict[str, list[Inertial]]:
     }
 
 
-def _upper_body(body: Body) -> list[Inertial]:
-    """Head, trunk and hanging arms above the hips, scaled to the mass that the legs leave."""
-    if not body.wearer:
-        return []
+def _upper_body(body: Body, mass: float) -> list[Inertial]:
+    """Head, trunk and hanging arms above the hips, scaled to a mass [kg]."""
     table = anthropometry.DE_LEVA[body.sex]
     size = {name: fraction * body.stature for name, fraction in anthropometry.DESIGN_LENGTHS.items()}
     top = size["trunk"]  # shoulder line above the mid-hip
@@ -143,7 +178,7 @@ def _upper_body(body: Body) -> list[Inertial]:
         for name in ("upper_arm", "forearm", "hand"):
             places.append((name, s * size["shoulder"], z - table[name].centre * size[name]))
             z -= size[name]
-    scale = body.upper_mass / sum(table[name].mass for name, _, _ in places)
+    scale = mass / sum(table[name].mass for name, _, _ in places)
     return [_segment(n, body.sex, scale * table[n].mass, size[n], (0.0, y, z)) for n, y, z in places]
 
 

@@ -19,6 +19,10 @@ KneeBranch = Literal["front", "behind"]
 """Side of the line from hip to ankle on which a knee bends: in front, as a person's, or as a bird's."""
 EventKind = Literal["heel_strike", "toe_off"]
 """Initial contact of a foot, or the moment it leaves the ground."""
+Masses = Literal["wearer", "device", "both"]
+"""Whose mass moves: the person's alone, the exoskeleton's alone, or both."""
+Reaction = Literal["measured", "predicted"]
+"""Where the ground reaction comes from: force plates, or an assumption about the walk."""
 PlausibilityWord = Literal["plausible", "doubtful"]
 """The verdict on a walk as it was read."""
 Manner = Literal["walk", "run"]

@@ -60,6 +60,13 @@ def at_phase(y: Array, phase: Array) -> Array:
     return np.asarray((np.exp(angle) @ c).real)
 
 
+def low_harmonics(y: Array, highest: int) -> Array:
+    """Evenly sampled periodic curves `(n, ...)` without the harmonics above the `highest` of their period."""
+    spectrum = np.fft.rfft(y, axis=0)
+    spectrum[highest + 1 :] = 0
+    return np.fft.irfft(spectrum, len(y), axis=0)
+
+
 def _spectral(y: Array, order: int, period: float) -> Array:
     n = len(y)
     factor = (2j * np.pi * np.fft.rfftfreq(n, 1 / n) / period) ** order

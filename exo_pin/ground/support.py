@@ -18,6 +18,7 @@ from exo_pin.anatomy.names import SupportStyle
 from exo_pin.arrays import Array
 from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
+from exo_pin.gait.time_series import low_harmonics
 from exo_pin.ground.misfit import ahead, in_mm, misfit
 from exo_pin.ground.stance import Intervals, lowest_corners, standing
 
@@ -179,13 +180,7 @@ def _smooth(gait: Gait, values: Array) -> Array:
     """The low harmonics of a cycle, or of a recording continued by its point reflections at both ends."""
     if gait.periodic:
         cycles = sum((event.side, event.kind) == ("left", "heel_strike") for event in gait.events)
-        return _low(values, max(_HARMONICS * cycles, _HARMONICS, round(_BANDWIDTH * gait.duration)))
+        return low_harmonics(values, max(_HARMONICS * cycles, _HARMONICS, round(_BANDWIDTH * gait.duration)))
     line = np.linspace(values[0], values[-1], len(values))
     odd = np.concatenate([values - line, -(values - line)[-2:0:-1]])
-    return line + _low(odd, max(round(2 * _BANDWIDTH * gait.duration), 1))[: len(values)]
-
-
-def _low(values: Array, harmonics: int) -> Array:
-    spectrum = np.fft.rfft(values)
-    spectrum[harmonics + 1 :] = 0
-    return np.fft.irfft(spectrum, len(values))
+    return line + low_harmonics(odd, max(round(2 * _BANDWIDTH * gait.duration), 1))[: len(values)]

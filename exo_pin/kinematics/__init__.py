@@ -5,9 +5,9 @@ from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.event_differences import EventDifference, disagreements, event_differences
 from exo_pin.kinematics.foot_markers import foot_markers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
-from exo_pin.kinematics.joint_rates import JointRates, joint_rates
+from exo_pin.kinematics.joint_rates import JointRates, joint_rates, smoothed_curves
 from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
-from exo_pin.kinematics.plate_contacts import plate_events, with_plates
+from exo_pin.kinematics.plate_contacts import PlateStep, plate_events, plate_steps, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.stance_slide import (
     LARGE_SLIDE,
@@ -28,6 +28,7 @@ __all__ = [
     "CurveOutlier",
     "EventDifference",
     "JointRates",
+    "PlateStep",
     "SoleSlide",
     "StanceSlide",
     "WalkNumbers",
@@ -46,9 +47,11 @@ __all__ = [
     "joint_rates",
     "largest_slide",
     "plate_events",
+    "plate_steps",
     "plausibility",
     "poses",
     "slide_doubts",
+    "smoothed_curves",
     "sole_slide",
     "spatiotemporal",
     "stance_slides",

@@ -44,7 +44,7 @@ def joint_rates(robot: Robot, gait: Gait, *, cutoff: float | None) -> JointRates
     if gait.periodic:
         how = "Derivatives of the walk's Fourier series; not filtered."
         return _rates(gait, q, gait.duration, how)
-    q, how = _smooth(gait, q, cutoff)
+    q, how = smoothed_curves(gait, q, cutoff)
     return _rates(gait, q, None, f"{how} Second-order differences.")
 
 
@@ -53,19 +53,30 @@ def _rates(gait: Gait, q: Array, period: float | None, how: str) -> JointRates:
     return JointRates(dq, ddq, how)
 
 
-def _smooth(gait: Gait, q: Array, cutoff: float | None) -> tuple[Array, str]:
-    """Filtered angles; those on an uneven grid (rounded times in files) are brought to an even one first."""
+def smoothed_curves(
+    gait: Gait, q: Array, cutoff: float | None, *, order: int = signals.ORDER, what: str = "Angles"
+) -> tuple[Array, str]:
+    """Filtered curves of a recording, and a sentence on how.
+
+    Those on an uneven grid (rounded times in files) are brought to an even one first.
+
+    Args:
+        gait: The walk, whose clock is used.
+        q: `(n, m)` curves.
+        cutoff: Low-pass [Hz]; None: no filter.
+        order: Of both passes together.
+        what: What the curves are, the sentence's first word.
+    """
     if cutoff is None:
-        return q, "Angles not filtered: accelerations carry the recording's noise."
+        return q, f"{what} not filtered: accelerations carry the recording's noise."
     even = np.linspace(gait.time[0], gait.time[-1], len(gait))
     off = float(np.abs(gait.time - even).max())
     try:
-        smooth = signals.lowpass(
-            even, time_series.resampled(gait.time, q, even, periodic=False), cutoff=cutoff
-        )
+        curves = time_series.resampled(gait.time, q, even, periodic=False)
+        smooth = signals.lowpass(even, curves, cutoff=cutoff, order=order)
     except GaitError as error:
-        return q, f"Angles not filtered, for the filter refused them ({error})."
-    words = f"Angles low-pass filtered first (Butterworth, order {signals.ORDER}, zero lag, {cutoff:g} Hz)"
+        return q, f"{what} not filtered, for the filter refused them ({error})."
+    words = f"{what} low-pass filtered first (Butterworth, order {order}, zero lag, {cutoff:g} Hz)"
     if off < _EXACT:
         return smooth, f"{words}."
     back = time_series.resampled(even, smooth, gait.time, periodic=False)

@@ -38,6 +38,22 @@ _LOADED = 0.1
 """Part of a contact's largest force from which on its centre of pressure is used: with less it wanders."""
 
 
+class PlateStep(NamedTuple):
+    """One contact of a force plate, and the foot that made it.
+
+    Attributes:
+        plate: The force plate.
+        contact: When it was loaded.
+        side: The foot; None where it is not known, or the walk is at another time.
+        why: Why it is not known; empty where it is, or where the walk is at another time.
+    """
+
+    plate: ForcePlate
+    contact: force_plates.Contact
+    side: Side | None
+    why: str
+
+
 class _PlateEvents(NamedTuple):
     """What force plates measured of a walk.
 
@@ -66,22 +82,38 @@ def plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tupl
     return _plate_events(robot, gait, forces).events
 
 
-def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _PlateEvents:
-    """Events and what gives none; errors as of `plate_events`."""
+def plate_steps(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tuple[PlateStep, ...]:
+    """Every contact with a force plate, z up, and the foot above it.
+
+    Args:
+        robot: The robot that walks.
+        gait: The walk, in the world of the plates.
+        forces: Force plates.
+
+    Raises:
+        GaitError: The gait does not move in the world.
+    """
     if gait.base is None:
         raise GaitError("the pelvis does not move in the world, so no foot can be found on a force plate")
     soles = sole_points(robot, gait).mean(axis=2)
+    return tuple(
+        PlateStep(plate, contact, *_whose(gait.time, soles, plate, contact))
+        for plate in forces
+        for contact in force_plates.contacts(plate.time, plate.force[:, 2])
+    )
+
+
+def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _PlateEvents:
+    """Events and what gives none; errors as of `plate_events`."""
     found, unused = list[Event](), dict[str, list[str]]()  # reason -> contacts
-    for plate in forces:
-        for contact in force_plates.contacts(plate.time, plate.force[:, 2]):
-            side, why = _whose(gait.time, soles, plate, contact)
-            if why:
-                start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
-                unused.setdefault(why, []).append(f"{plate.name}, {start:.2f} .. {stop:.2f} s")
-            times: dict[EventKind, float | None] = {"heel_strike": contact.strike, "toe_off": contact.off}
-            for kind, t in times.items():
-                if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
-                    found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
+    for plate, contact, side, why in plate_steps(robot, gait, forces):
+        if why:
+            start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
+            unused.setdefault(why, []).append(f"{plate.name}, {start:.2f} .. {stop:.2f} s")
+        times: dict[EventKind, float | None] = {"heel_strike": contact.strike, "toe_off": contact.off}
+        for kind, t in times.items():
+            if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
+                found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
     contacts = [f"{'; '.join(of)}: {why}" for why, of in unused.items()]
     if not found:
         raise GaitError(": ".join(("no contact of a foot with a force plate was found", *contacts)))

@@ -12,7 +12,7 @@ import pinocchio as pin
 
 from exo_pin import description, devices, xacro_files
 from exo_pin.anatomy import Body
-from exo_pin.anatomy.names import Base, HipOrder
+from exo_pin.anatomy.names import Base, HipOrder, Masses
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.files import read_text
@@ -26,6 +26,7 @@ def load_robot(
     device: str | devices.Device = "exo12",
     hip_order: HipOrder = "clinical",
     base: Base = "fixed",
+    masses: Masses = "both",
 ) -> Robot:
     """The exoskeleton for a body.
 
@@ -36,20 +37,22 @@ def load_robot(
         hip_order: `"clinical"` or `"yaw_roll_pitch"`.
         base: `"fixed"`: the pelvis is held as in the paper (or slides on a stand, if the device has slides);
             `"floating"`: it has six degrees of freedom, and the device's slides are left out.
+        masses: Whose masses the links have: `"wearer"`, `"device"` or `"both"`.
 
     Raises:
-        UnknownNameError: Device, hip order or base is unknown.
+        UnknownNameError: Device, hip order, base or masses are unknown.
+        DescriptionError: The wearer's masses of a body that is a bare device's.
         FormatError: The device's file is not accepted.
     """
     body = Body.from_stature() if body is None else body
     found = devices.find(device)
     if base == "floating":
         found = found.carried()
-    text = description.urdf(body, device=found, hip_order=hip_order)
+    text = description.urdf(body, device=found, hip_order=hip_order, masses=masses)
     placement = np.eye(4)
     placement[2, 3] = body.leg_length
     robot = load_urdf(text, base=base, placement=placement)
-    return dataclasses.replace(robot, body=body, hip_order=hip_order, device=found)
+    return dataclasses.replace(robot, body=body, hip_order=hip_order, device=found, masses=masses)
 
 
 def load_urdf(

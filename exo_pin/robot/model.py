@@ -16,7 +16,7 @@ import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.hip_cardan_angles import reorder
-from exo_pin.anatomy.names import Base, HipOrder
+from exo_pin.anatomy.names import Base, HipOrder, Masses
 from exo_pin.arrays import Array, Mask, as_floats
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
@@ -56,6 +56,7 @@ class Robot:
         hip_order: Order of the hip joints from the pelvis outwards.
         device: The device it was made from; None for a URDF from elsewhere.
         path: The file that the URDF was read from, beside which its meshes are found; None for a text.
+        masses: Whose masses its links have.
         remarks: What was changed in the URDF to have joints that move within limits, a plain sentence each.
     """
 
@@ -72,6 +73,7 @@ class Robot:
     hip_order: HipOrder = "clinical"
     device: Device | None = None
     path: Path | None = None
+    masses: Masses = "both"
     remarks: tuple[str, ...] = ()
 
     @property

@@ -8,7 +8,7 @@ import sys
 from typing import Any, cast
 
 from exo_pin.anatomy import Body
-from exo_pin.anatomy.names import HipOrder
+from exo_pin.anatomy.names import HipOrder, Masses
 from exo_pin.anatomy.sizes import LEG_SIZES
 from exo_pin.cli import body_options, options
 from exo_pin.errors import DescriptionError
@@ -43,12 +43,14 @@ def run(args: argparse.Namespace) -> int:
     given = dict(body_options.assignment(text, sign=":=") for text in args.assignments)
     device = str(_once(given, args, "device") or "exo12")
     hip_order = cast(HipOrder, _once(given, args, "hip_order") or "clinical")  # urdf() refuses other words
+    masses = cast(Masses, given.pop("masses", "both"))
     fields = {f.name for f in dataclasses.fields(Body)} | set(LEG_SIZES)
     for name in ("stature", "mass", "sex"):
         setattr(args, name, _once(given, args, name))
     args.set += [f"{name}={_plain(given.pop(name))}" for name in sorted(fields & set(given))]
     xacro_arguments = {name: str(value) for name, value in given.items()}
-    text = description.urdf(options.body_from(args), device=device, hip_order=hip_order, **xacro_arguments)
+    body = options.body_from(args)
+    text = description.urdf(body, device=device, hip_order=hip_order, masses=masses, **xacro_arguments)
     if args.output:
         write_text(args.output, text)
         print(f"{args.output}: {len(text)} bytes")

@@ -1,0 +1,102 @@
+"""Motion of the model: pelvis poses and joint angles as Pinocchio's positions, velocities, accelerations."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+import numpy as np
+
+from exo_pin.arrays import Array
+from exo_pin.gait import Gait
+from exo_pin.gait.rigid_poses import nearest_pose
+from exo_pin.kinematics import joint_rates, smoothed_curves
+from exo_pin.robot import Robot
+
+CUTOFF = 6.0
+"""Low-pass of a recording's motion before it is differentiated [Hz]: usual for walking, and OpenSim's choice
+for its published walk."""
+
+_ORDER = 6
+"""Of both passes together."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The motion of a floating robot in Pinocchio's coordinates.
+
+    Attributes:
+        q: `(n, nq)` pelvis position, quaternion, joint angles [m, rad].
+        v: `(n, nv)` velocity of the pelvis in its own axes, linear first, then the joints' [m/s, rad/s].
+        a: `(n, nv)` spatial acceleration of the pelvis in its own axes, then the joints' [m/s^2, rad/s^2].
+        base: `(n, 4, 4)` pose of the pelvis.
+        how: Filter and derivative, in words.
+    """
+
+    q: Array
+    v: Array
+    a: Array
+    base: Array
+    how: str
+
+
+def motion(robot: Robot, gait: Gait, *, cutoff: float | None = CUTOFF) -> Motion:
+    """Positions, velocities and accelerations of a walk.
+
+    A recording is low-pass filtered first, angles and pelvis alike. A periodic walk is differentiated by its
+    Fourier series and not filtered.
+
+    Args:
+        robot: A floating robot.
+        gait: The walk, with the motion of its pelvis.
+        cutoff: Low-pass of a recording [Hz]; None: no filter.
+    """
+    walk, how = _smoothed(gait, cutoff)
+    rates = joint_rates(robot, walk, cutoff=None)
+    assert walk.base is not None
+    assert walk.base_velocity is not None
+    assert walk.base_acceleration is not None
+    velocity, acceleration = in_pelvis_axes(walk.base, walk.base_velocity, walk.base_acceleration)
+    return Motion(
+        q=robot.from_gait(walk),
+        v=np.hstack([velocity, rates.dq]),
+        a=np.hstack([acceleration, rates.ddq]),
+        base=walk.base,
+        how=how,
+    )
+
+
+def in_pelvis_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
+    """Velocity and spatial acceleration of a frame, in its own axes, as Pinocchio's free joint has them.
+
+    The spatial linear acceleration is not that of the origin: a_lin = R^T p'' - w x v_lin (Featherstone,
+    Rigid Body Dynamics Algorithms, 2008, section 2.11).
+
+    Args:
+        T: `(n, 4, 4)` poses in the world.
+        velocity: `(n, 6)` of the origin, then angular, world axes [m/s, rad/s].
+        acceleration: `(n, 6)` of the origin, then angular, world axes [m/s^2, rad/s^2].
+
+    Returns:
+        `(n, 6)` velocity and `(n, 6)` spatial acceleration.
+    """
+    R = T[:, :3, :3]
+
+    def own(x: Array) -> Array:
+        return np.hstack([np.einsum("nji,nj->ni", R, part) for part in (x[:, :3], x[:, 3:])])
+
+    v, a = own(velocity), own(acceleration)
+    a[:, :3] -= np.cross(v[:, 3:], v[:, :3])
+    return v, a
+
+
+def _smoothed(gait: Gait, cutoff: float | None) -> tuple[Gait, str]:
+    """The walk with filtered angles and pelvis, and a sentence on how."""
+    if gait.periodic:
+        return gait, "Derivatives of the walk's Fourier series; not filtered."
+    assert gait.base is not None
+    n, joints = gait.q.shape
+    curves = np.hstack([gait.q, gait.base.reshape(n, 16)])
+    smooth, how = smoothed_curves(gait, curves, cutoff, order=_ORDER, what="Angles and pelvis")
+    base = nearest_pose(smooth[:, joints:].reshape(n, 4, 4))
+    return dataclasses.replace(gait, q=smooth[:, :joints], base=base), f"{how} Second-order differences."
