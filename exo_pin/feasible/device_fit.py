@@ -10,10 +10,9 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES, Body
 from exo_pin.devices import Device
-from exo_pin.errors import GaitError
 from exo_pin.files import json_number
 from exo_pin.gait import Gait
-from exo_pin.kinematics import spatiotemporal
+from exo_pin.kinematics import walking_speed
 from exo_pin.robot import Robot, load_robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
 
@@ -27,7 +26,7 @@ class Fit:
 
     Attributes:
         what: `"treadmill"` (walking speed [m/s]) or `"person"` (a size [m] or the mass [kg]).
-        required: The speed or stature; NaN where the walk has no cycles and so no speed.
+        required: The speed or stature; NaN where the walk shows no speed.
         available: Smallest and largest accepted value.
         unit: Of all three.
         of: Which size of the person, e.g. `"stature"`; empty for the treadmill.
@@ -73,7 +72,7 @@ def fits(robot: Robot, gait: Gait) -> tuple[Fit, ...]:
     """What the device's record says about treadmill and person, against this walk and body."""
     device, body, found = robot.device, robot.body, []
     if device is not None and device.treadmill is not None:
-        found.append(Fit("treadmill", _speed(load_robot(body), gait), device.treadmill, "m/s"))
+        found.append(Fit("treadmill", walking_speed(load_robot(body), gait), device.treadmill, "m/s"))
     if device is not None and body is not None:
         found += _person(device, body)
     return tuple(found)
@@ -109,12 +108,6 @@ def leg_difference(body: Body | None) -> str | None:
 def within_belt_speed(fit: Fit, robot: Robot) -> Callable[[Gait], bool]:
     """A condition on other amplitudes of the walk: the treadmill is fast enough for them."""
     full, (_, fastest) = load_robot(robot.body), fit.available
-    return lambda gait: not np.isfinite(fit.required) or not _speed(full, gait) > fastest + LIMIT_TOLERANCE
-
-
-def _speed(robot: Robot, gait: Gait) -> float:
-    """Walking speed on the full exoskeleton [m/s]; NaN where the walk has no cycles."""
-    try:
-        return float(spatiotemporal(robot, gait)["speed"].mean)
-    except GaitError:
-        return float("nan")
+    if not np.isfinite(fit.required):
+        return lambda gait: True
+    return lambda gait: not walking_speed(full, gait) > fastest + LIMIT_TOLERANCE

@@ -16,6 +16,7 @@ _DEVIATIONS = 2.0
 
 _SCHWARTZ = "Schwartz 2008"
 _BOHANNON = "Bohannon & Andrews 2011"
+_DUSING = "Dusing & Thorpe 2007"
 _SCHULZ = "Schulz 2012"
 
 CITATIONS = {
@@ -24,6 +25,9 @@ CITATIONS = {
     "this walk's own dimensionless speed, mean +- 2 sd",
     _BOHANNON: "Bohannon, Andrews, Physiotherapy 97 (2011) 182-189: lowest and highest mean of 23 111 "
     "healthy adults grouped by sex and decade (women of 80 to 99 years, men of 40 to 49)",
+    _DUSING: "Dusing, Thorpe, Gait & Posture 25 (2007) 135-139: 438 children of 1 to 10 years at the speed "
+    "they chose; mean - 2 sd of the slowest age to mean + 2 sd of the quickest; for a stature below 1.43 m, "
+    "which no adult is expected to have (WHO growth reference 2007: women at 19 years, mean - 3 sd)",
     _SCHULZ: "Schulz, J NeuroEng Rehabil 9:69 (2012), table 1: 28 healthy younger and older adults at their "
     "preferred speed on a level floor, in per cent of leg length, mean +- 2 sd",
 }
@@ -31,6 +35,12 @@ CITATIONS = {
 
 _ADULT_SPEED = (0.943, 1.434)
 """Lowest and highest group mean of normal walking [m/s]: Bohannon & Andrews 2011, abstract."""
+
+_CHILD_SPEEDS = ((0.8205, 0.2528), (1.3363, 0.1544))
+"""Mean and sd of the slowest and of the quickest age [m/s]: Dusing & Thorpe 2007, abstract."""
+
+_SMALLEST_ADULT = 1.43
+"""Mean minus three sd of the height of women at 19 years [m]: WHO growth reference 2007."""
 
 _STEP_WIDTH = (0.140, 0.031)
 """Mean and sd in leg lengths: Schulz 2012, table 1, no obstacles, preferred speed."""
@@ -66,7 +76,7 @@ class Norm(NamedTuple):
     source: str
 
 
-def normal(numbers: Mapping[str, Number], *, leg_length: float) -> dict[str, Norm]:
+def normal(numbers: Mapping[str, Number], *, leg_length: float, stature: float = math.nan) -> dict[str, Norm]:
     """The reference range of each number that has one.
 
     Walking speed decides nearly every other number, so cadence, lengths and phases are compared with people
@@ -76,8 +86,9 @@ def normal(numbers: Mapping[str, Number], *, leg_length: float) -> dict[str, Nor
     Args:
         numbers: Of `exo_pin.gait.spatiotemporal`.
         leg_length: Hip centre to sole [m]; NaN where it is unknown: then only speed has a range.
+        stature: Height of the person [m], which separates children from adults; NaN: taken for an adult.
     """
-    known = {"speed": Norm(*_ADULT_SPEED, "m/s", _BOHANNON)}
+    known = {"speed": _chosen_speed(stature)}
     if leg_length > 0:
         known["step_width"] = _spread(*_STEP_WIDTH, leg_length, "m", _SCHULZ)
         speed = numbers["speed"].mean / math.sqrt(GRAVITY * leg_length) if "speed" in numbers else math.nan
@@ -85,15 +96,18 @@ def normal(numbers: Mapping[str, Number], *, leg_length: float) -> dict[str, Nor
     return {name: known[_plain(name)] for name in numbers if _plain(name) in known}
 
 
-def against_normal(numbers: Mapping[str, Number], *, leg_length: float) -> dict[str, str]:
+def against_normal(
+    numbers: Mapping[str, Number], *, leg_length: float, stature: float = math.nan
+) -> dict[str, str]:
     """Each number that has a reference range: `within`, `below` or `above` it.
 
     Args:
         numbers: Of `exo_pin.gait.spatiotemporal`.
         leg_length: Hip centre to sole [m], or NaN.
+        stature: Height of the person [m], or NaN.
     """
     verdicts = {}
-    for name, norm in normal(numbers, leg_length=leg_length).items():
+    for name, norm in normal(numbers, leg_length=leg_length, stature=stature).items():
         mean = numbers[name].mean
         verdicts[name] = "below" if mean < norm.low else "above" if mean > norm.high else "within"
     return verdicts
@@ -102,6 +116,14 @@ def against_normal(numbers: Mapping[str, Number], *, leg_length: float) -> dict[
 def _plain(name: str) -> str:
     """Without the side."""
     return name.removeprefix("left_").removeprefix("right_")
+
+
+def _chosen_speed(stature: float) -> Norm:
+    """The speed that people of that size choose: a child's, or an adult's."""
+    if not stature < _SMALLEST_ADULT:
+        return Norm(*_ADULT_SPEED, "m/s", _BOHANNON)
+    (slowest, slow_sd), (quickest, quick_sd) = _CHILD_SPEEDS
+    return Norm(slowest - _DEVIATIONS * slow_sd, quickest + _DEVIATIONS * quick_sd, "m/s", _DUSING)
 
 
 def _spread(mean: float, sd: float, scale: float, unit: str, source: str) -> Norm:

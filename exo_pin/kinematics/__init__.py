@@ -18,7 +18,7 @@ from exo_pin.kinematics.stance_slide import (
     sole_slide,
     stance_slides,
 )
-from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers
+from exo_pin.kinematics.walk_numbers import WalkNumbers, spatiotemporal, walk_numbers, walking_speed
 from exo_pin.kinematics.walk_plausibility import plausibility
 
 __all__ = [
@@ -57,6 +57,7 @@ __all__ = [
     "stance_slides",
     "velocities",
     "walk_numbers",
+    "walking_speed",
     "with_events",
     "with_plates",
 ]

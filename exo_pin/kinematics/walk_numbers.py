@@ -121,26 +121,37 @@ def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> W
     )
     if how == "run":  # the published ranges are those of walks
         return replace(found, unknown="" if contacts_are_measured(gait) else _UNKNOWN)
-    leg_length = robot.body.leg_length if robot.body else math.nan
-    usual = normal(found.numbers, leg_length=leg_length)
-    return replace(found, usual=usual, verdicts=against_normal(found.numbers, leg_length=leg_length))
+    leg_length, stature = (robot.body.leg_length, robot.body.stature) if robot.body else 2 * (math.nan,)
+    return replace(
+        found,
+        usual=normal(found.numbers, leg_length=leg_length, stature=stature),
+        verdicts=against_normal(found.numbers, leg_length=leg_length, stature=stature),
+    )
 
 
 def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
     """Cadence, speed, lengths, width and phases of a gait; see `exo_pin.gait.spatiotemporal`.
 
-    Events are the gait's own, or those of its kinematics. Lengths are those of this robot's legs.
+    Events are the gait's own, or those of its kinematics. Lengths are those of this robot's legs. Where no
+    foot has a whole cycle the numbers are those of an estimated stride, as of `walk_numbers`.
 
     Pauses, turns and other spans that are no strides (`exo_pin.gait.strides`) are left out, and of a run
     whose contacts come from kinematics alone what needs them: stance, swing, flight.
 
     Raises:
-        GaitError: There are no gait cycles.
+        GaitError: There are no gait cycles, and no stride can be estimated.
     """
     gait = with_events(robot, gait)
-    if walk_estimate(gait):
-        raise GaitError("no gait cycles found: no foot strikes the ground twice")
-    return _known(gait, manner(gait), _on_the_model(robot, gait, None))
+    return _known(gait, manner(gait), _on_the_model(robot, gait, walk_estimate(gait)))
+
+
+def walking_speed(robot: Robot, gait: Gait) -> float:
+    """Speed of a gait on this robot's legs [m/s], see `spatiotemporal`; NaN where it is unknown."""
+    try:
+        numbers = spatiotemporal(robot, gait)
+    except GaitError:
+        return math.nan
+    return numbers["speed"].mean if "speed" in numbers else math.nan
 
 
 def _known(gait: Gait, how: Manner, numbers: dict[str, Number]) -> dict[str, Number]:

@@ -197,7 +197,9 @@ def test_numbers_are_compared_with_published_ranges_that_name_their_source():
     numbers = spatiotemporal(time, path, events)
     assert against_normal(numbers, leg_length=LEG)["speed"] == "within"
     usual = normal(numbers, leg_length=LEG)
-    assert {norm.source for norm in usual.values()} == set(published_ranges.CITATIONS)
+    child = normal(numbers, leg_length=0.68, stature=1.34)
+    sources = {norm.source for norm in [*usual.values(), *child.values()]}
+    assert sources == set(published_ranges.CITATIONS)
     assert {name for name, norm in usual.items() if norm.source == "Schwartz 2008"} >= {
         "cadence",
         "stride_length",
@@ -210,6 +212,17 @@ def test_numbers_are_compared_with_published_ranges_that_name_their_source():
     slow = spatiotemporal(time, path * 0.5, events)
     assert against_normal(slow, leg_length=LEG)["speed"] == "below"
     assert against_normal(slow, leg_length=LEG)["left_step_length"] == "below"
+
+
+def test_the_speed_of_a_child_is_compared_with_children():
+    """Dusing & Thorpe 2007: 0.8205 +- 0.2528 to 1.3363 +- 0.1544 m/s; no stature: an adult."""
+    numbers = spatiotemporal(*heels())
+    quick = {"speed": numbers["speed"]._replace(mean=1.48)}
+    assert against_normal(quick, leg_length=0.68, stature=1.34) == {"speed": "within"}
+    for stature in (1.44, 1.75, float("nan")):
+        assert against_normal(quick, leg_length=LEG, stature=stature) == {"speed": "above"}
+    child = normal(quick, leg_length=0.68, stature=1.34)["speed"]
+    assert (child.low, child.high) == pytest.approx((0.315, 1.645), abs=1e-3)
 
 
 def test_ranges_follow_the_leg_and_the_speed():

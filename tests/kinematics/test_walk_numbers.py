@@ -14,6 +14,7 @@ from exo_pin.kinematics import (
     joint_rates,
     spatiotemporal,
     walk_numbers,
+    walking_speed,
 )
 
 
@@ -74,3 +75,19 @@ def test_an_outlier_is_found_in_the_curve_at_the_time_and_with_the_size_that_it_
     assert (height.curve, height.time, height.unit) == ("pelvis_z", recording.time[60], "mm")
     assert knee.off == pytest.approx(8.0, abs=0.1)
     assert height.off == pytest.approx(50.0, abs=0.5)
+
+
+def test_a_part_of_a_cycle_has_one_speed_for_all_who_need_it(robot, gait):
+    """No foot has a whole cycle in 1.3 of them: a stride is estimated. A sixth does not show the speed."""
+    walk = gait.repeated(3)
+
+    def part(share):
+        keep = walk.time <= share * gait.duration
+        return Gait(walk.time[keep], walk.q[keep], base=walk.base[keep])
+
+    found = walk_numbers(robot, part(1.3))
+    assert found.estimate is not None
+    speed = walking_speed(robot, part(1.3))
+    assert speed == found.numbers["speed"].mean
+    assert speed == pytest.approx(walking_speed(robot, gait), rel=0.05)  # other events
+    assert np.isnan(walking_speed(robot, part(1 / 6)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -9,10 +10,9 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Index
-from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.strides import strides
-from exo_pin.kinematics import poses, spatiotemporal
+from exo_pin.kinematics import poses, walking_speed
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart import Chart, Curve, Level, draw
 from exo_pin.report.draw.drawing import Drawing
@@ -96,9 +96,8 @@ def _advance(robot: Robot, gait: Gait, rows: Index) -> tuple[Array, str]:
     """How far forward (10,) [m] each pose is moved, and why."""
     times: Array = gait.time[rows] - gait.time[rows[0]]
     apart: Array = 0.45 * np.arange(float(_POSES))
-    try:
-        speed = spatiotemporal(robot, gait)["speed"].mean
-    except (GaitError, KeyError):
+    speed = walking_speed(robot, gait)
+    if math.isnan(speed):
         return apart, "The poses are 45 cm apart for the picture: the walk's speed is unknown."
     moved = 0.0 if gait.base is None else float(np.linalg.norm(gait.base[-1, :2, 3] - gait.base[0, :2, 3]))
     if moved / gait.duration > speed / 2:
