@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from exo_pin.cli import kept_results, stopping
+from exo_pin.cli import kept_results, output_files, stopping
 from exo_pin.cli.parser import Parser
 from exo_pin.cli.plain_output import plain_output
 from exo_pin.errors import ConvergenceError, ExoPinError, LimitError, UnknownNameError, shortened
@@ -116,7 +116,9 @@ def _run_command(words: list[str]) -> int:
         scratch.sweep()
         if args.command != "cache":  # it says so itself
             kept_results.print_refusal()
-        code: int = _module(args.command).run(args)
+        command = _module(args.command)
+        with output_files.watched(args, getattr(command, "outputs", lambda _: ())(args)):
+            code: int = command.run(args)
         return code
 
 

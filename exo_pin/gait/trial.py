@@ -23,6 +23,9 @@ UP_AXES: tuple[Vertical, ...] = ("+x", "+y", "+z", "-x", "-y", "-z")
 LARGEST_FORCE = 1e5
 """No foot presses more on a plate [N]; a larger number is damaged."""
 
+_LOADED = 20.0
+"""Force from which a plate is loaded [N]: the centre of pressure has a meaning."""
+
 
 @dataclass(frozen=True, eq=False)
 class ForcePlate:
@@ -52,8 +55,26 @@ class ForcePlate:
             if kept.shape != (len(self.time), 3):
                 raise GaitError(f"{self.name}: {name} has shape {kept.shape}, expected (m, 3)")
             set_fields(self, **{name: kept})
-        if np.isinf(self.force).any() or (np.abs(self.force) > LARGEST_FORCE).any():
-            raise GaitError(f"{self.name}: a force of more than {LARGEST_FORCE:g} N; damaged?")
+        damage = plate_damage(self.force, self.point)
+        if damage:
+            raise GaitError(f"{self.name}: {damage}; damaged?")
+        if (far := np.abs(self.point) > FURTHEST).any():  # moment over hardly any force: no place at all
+            set_fields(self, point=frozen(np.where(far, np.nan, self.point), "point"))
+
+
+def plate_damage(force: Array, point: Array) -> str:
+    """What no force plate can have measured, in words; empty if there is nothing of the kind.
+
+    Args:
+        force: `(m, 3)` [N].
+        point: `(m, 3)` centre of pressure [m]; that of an unloaded plate may be anything.
+    """
+    if (np.abs(force) > LARGEST_FORCE).any():
+        return f"a force of more than {LARGEST_FORCE:g} N"
+    loaded = np.linalg.norm(force, axis=1) > _LOADED
+    if (np.abs(point[loaded]) > FURTHEST).any():
+        return f"a centre of pressure more than {FURTHEST:g} m away"
+    return ""
 
 
 @dataclass(frozen=True, eq=False)

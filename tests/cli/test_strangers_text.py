@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import csv
 import time
 
 import pytest
 
 from exo_pin.cli import clock, main
 from exo_pin.cli.measures import metres
-from exo_pin.errors import FormatError, UnknownNameError
+from exo_pin.errors import LONGEST_MESSAGE, FormatError, UnknownNameError
 from exo_pin.files import read_text
+from exo_pin.formats import save_gait
+from exo_pin.gait import normative_gait
 from exo_pin.safe import toml_file
 from exo_pin.safe.spreadsheet_cells import marked, table, unmarked
 
@@ -88,3 +91,25 @@ def test_time_zones_that_do_not_exist_are_no_traceback(monkeypatch):
     finally:
         monkeypatch.undo()
         time.tzset()
+
+
+BIDS = "sub-01_task-walk_tracksys-imu_motion.tsv"
+LONG = "1" * (csv.field_size_limit() + 1)
+
+
+@pytest.mark.parametrize("name", ["walk.csv", "walk.mot", "walk.trc", BIDS, "lab.csv"])
+def test_a_cell_that_is_too_long_for_a_table_costs_a_short_line(tmp_path, capsys, name):
+    path = tmp_path / name
+    if name == "walk.trc":
+        head = "PathFileType\t4\n100\t100\t1\t1\tmm\nFrame#\tTime\tA\n\tX1\tY1\tZ1\n"
+        path.write_text(f"{head}\n1\t0\t{LONG}\n")
+    elif name == "lab.csv":
+        path.write_text(f"t,{LONG}\n0,{LONG}\n1,2\n")
+    else:
+        save_gait(normative_gait("free"), path)
+        rows = path.read_text().splitlines(keepends=True)
+        end = "\t" if "\t" in rows[-2] else ","
+        path.write_text("".join([*rows[:-2], LONG + rows[-2][rows[-2].index(end) :], rows[-1]]))
+    assert main(["info", str(path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert len(line) <= LONGEST_MESSAGE + len("exo-pin: ")

@@ -160,6 +160,17 @@ def test_one_frame_is_no_walk_and_says_what_it_is_good_for(walk, tmp_path):
         load_walk(path)
 
 
+def test_a_loaded_plate_with_a_centre_of_pressure_beyond_10_km_is_left_out():
+    force = np.tile([0.0, 0, 700], (5, 1))
+    units = ("N", "Nmm", "mm")
+    far = C3dPlate(force, np.full((5, 3), 1.1e7), force, units)
+    unloaded = C3dPlate(0.01 * force, np.full((5, 3), np.inf), force, units)
+    found = force_plates([far, unloaded], 1000, 0.0)
+    assert [plate.name for plate in found.plates] == ["force plate 2"]
+    assert np.isnan(found.plates[0].point).all()  # moment over no force is no place
+    assert "force plate 1 has a centre of pressure more than 10000 m away" in found.remarks[0]
+
+
 def test_plates_in_unknown_units_are_left_out_and_counted(edited):
     force = np.tile([0.0, 0, 700], (5, 1))
     known = C3dPlate(force, 1e3 * force, 1e3 * force, ("N", "N.mm", "MM"))

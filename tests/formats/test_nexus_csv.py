@@ -102,6 +102,20 @@ def test_force_plates_have_ten_samples_a_frame_and_point_upwards(lab, path, walk
         load_forces(path)
 
 
+def test_a_plate_with_a_centre_of_pressure_beyond_10_km_is_left_out(lab, path, walk):
+    rows = [f"{f},{s},1,2,-700,0,0,0,{{}},-100,0" for f in range(1, 61) for s in range(10)]
+    path.write_text("\n".join([*DEVICES, *[row.format("2e7") for row in rows], "", lab.nexus(walk)]))
+    with pytest.raises(FormatError):
+        load_forces(path)
+    assert "a centre of pressure more than 10000 m away and is left out" in " ".join(load_gait(path).remarks)
+    unloaded = [row.format("2e7").replace("-700", "1") for row in rows[:300]]
+    loaded = [row.format("250") for row in rows[300:]]
+    path.write_text("\n".join([*DEVICES, *unloaded, *loaded, "", lab.nexus(walk)]))
+    (plate,) = load_forces(path)  # where nothing stands on the plate it means nothing
+    assert np.isnan(plate.point[:300, 0]).all()
+    np.testing.assert_allclose(plate.point[300:, 0], 0.25)
+
+
 def test_two_subjects_are_said(lab, path, walk):
     outputs = lab.pig(walk)
     twice = {f"Anna:{k}": v for k, v in outputs.items()} | {f"Ben:{k}": v + 1 for k, v in outputs.items()}

@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.formats.c3d.content import C3dPlate
 from exo_pin.formats.units import is_newton, metres_per, newton_metres_per
-from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
+from exo_pin.gait.trial import ForcePlate, plate_damage
 
 
 class FoundPlates(NamedTuple):
@@ -39,10 +39,11 @@ def force_plates(
             units = ", ".join(ascii(text[:12]) for text in plate.units)
             remarks.append(f"force plate {k} is in {units} and left out; N, Nmm, mm are read")
             continue
-        if np.isinf(plate.force).any() or (np.abs(plate.force) > LARGEST_FORCE).any():
-            remarks.append(f"force plate {k} has more than {LARGEST_FORCE:g} N and is left out: damaged?")
+        point, moment = plate.point * metres, plate.moment * turning
+        damage = plate_damage(plate.force, point)
+        if damage:
+            remarks.append(f"force plate {k} has {damage} and is left out: damaged?")
             continue
         time: Array = start + np.arange(len(plate.force)) / rate
-        point, moment = plate.point * metres, plate.moment * turning
         plates.append(ForcePlate(f"force plate {k}", time, plate.force, point, moment))
     return FoundPlates(tuple(plates), tuple(remarks))

@@ -7,7 +7,7 @@ import numpy as np
 from exo_pin.formats.c3d.plates import FoundPlates
 from exo_pin.formats.nexus.sections import ExportedSection, Quantity
 from exo_pin.formats.units import is_newton, metres_per
-from exo_pin.gait.trial import LARGEST_FORCE, ForcePlate
+from exo_pin.gait.trial import ForcePlate, plate_damage
 
 _LOADED = 20.0
 """Vertical force from which a plate is loaded [N]."""
@@ -29,20 +29,18 @@ def force_devices(section: ExportedSection) -> FoundPlates:
         at = next((q for q in points if _device(q) == name), None)
         metres = None if at is None else metres_per(at.units[0])
         force = np.nan_to_num(quantity.values[:, :3])
-        if (
-            at is None
-            or metres is None
-            or not is_newton(quantity.units[0])
-            or np.abs(force).max() > LARGEST_FORCE
-        ):
-            why = f"expected N up to {LARGEST_FORCE:g} and a centre of pressure in mm"
-            remarks.append(f"device {name[:60]} is left out: {why}")
+        if at is None or metres is None or not is_newton(quantity.units[0]):
+            remarks.append(f"device {name[:60]} is left out: expected N and a centre of pressure in mm")
+            continue
+        point = metres * at.values[:, :3]
+        damage = plate_damage(force, point)
+        if damage:
+            remarks.append(f"device {name[:60]} has {damage} and is left out: damaged?")
             continue
         loaded = force[np.abs(force[:, 2]) > _LOADED, 2]
         if loaded.size and loaded.mean() < 0:
             force = -force
             remarks.append(f"device {name[:60]}: the file has the force on the plate; the sign is turned")
-        point = metres * at.values[:, :3]
         plates.append(ForcePlate(name, time, force, point, np.zeros_like(force)))
     return FoundPlates(tuple(plates), tuple(remarks))
 
