@@ -32,6 +32,7 @@ _STRUCTURE = ("hip_order", "locked", "slides", "toes")
 
 
 _BOUNDS = {
+    "girth": (0.3, 3.0),  # of cuffs and bodies / those of a person of the usual mass
     "_effort": (1e-3, 1e4),  # [N m]
     "_velocity": (1e-3, 1e3),  # [rad/s]
     "_lower": (-math.pi, math.pi),  # [rad]: degrees are noticed
@@ -75,7 +76,8 @@ def arguments(
     if hip_order not in HIP_ORDERS:
         raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
     found = devices.find(device)
-    values = _structure(found, hip_order) | {name: _text(getattr(body, name)) for name in _SIZES}
+    sizes = {name: _text(getattr(body, name)) for name in _SIZES}
+    values = _structure(found, hip_order) | sizes | {"girth": _text(body.girth)}
     for link, part in link_inertias(body, toes=found.toes, stand=found.stand, masses=masses).items():
         values |= _inertial(link, part)
     for joint in (*JOINTS, *found.added):

@@ -134,6 +134,23 @@ def test_waist_width_moves_the_ring_and_not_the_hips():
     assert [o.get("xyz") for o in wide.findall(ring)] != [o.get("xyz") for o in normal.findall(ring)]
 
 
+def test_a_heavier_wearer_has_wider_cuffs_and_bodies_that_grow_outwards():
+    def thigh(mass):
+        tree = ET.fromstring(description.urdf(Body.from_stature(mass=mass)))
+        body = tree.find("link[@name='left_thigh']/collision")
+        radius = float(body.find("geometry/cylinder").get("radius"))
+        cuff = max(
+            float(o.get("xyz").split()[0]) for o in tree.findall("link[@name='left_thigh']/visual/origin")
+        )
+        return radius, radius - float(body.find("origin").get("xyz").split()[1]), cuff
+
+    light, heavy = thigh(70.0), thigh(110.0)
+    growth = np.sqrt(110.0 / 70.0)
+    assert heavy[0] == pytest.approx(growth * light[0], abs=2e-6)
+    assert heavy[1] == pytest.approx(light[1], abs=2e-6)  # the side towards the other leg stays
+    assert heavy[2] > 1.15 * light[2]
+
+
 def test_single_arguments_can_be_overridden():
     text = description.urdf(BODY, left_knee_flexion_upper="1.5", left_shank_link_mass="9.5")
     tree = ET.fromstring(text)

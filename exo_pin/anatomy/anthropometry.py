@@ -8,8 +8,10 @@ centre, heel to toe). Dempster's masses are not mixed in: his thigh ends elsewhe
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+from exo_pin.anatomy.human import MASS_INDEX_RANGE, usual_mass
 from exo_pin.anatomy.names import Movement, Sex
 
 LENGTHS = {"thigh": 0.245, "shank": 0.246, "foot_length": 0.152}
@@ -29,7 +31,7 @@ DESIGN_LENGTHS = {
 """Length / stature: customary values without a source at hand, hence design defaults of this package."""
 
 HIP_BREADTH = 0.191
-"""Breadth over the trochanters / stature (Drillis & Contini 1966)."""
+"""Breadth over the trochanters / stature (Drillis & Contini 1966), of a person of the usual mass."""
 
 WAIST_CLEARANCE = 0.04
 """Padding between body and waist ring, both sides together [m] (design default)."""
@@ -103,6 +105,22 @@ LIMITS_DEG: dict[Movement, tuple[float, float]] = {
 which makes the answer of inverse kinematics unique."""
 
 
+def girth(stature: float, mass: float) -> float:
+    """Breadth and depth of a body / those of a person of the same stature and the usual mass.
+
+    At equal lengths and density every cross-section grows with the mass, so breadths, depths and girths grow
+    with its square root. Measured exponents lie around it: 2/3 at the waist (Krakauer & Krakauer, PLoS ONE 7
+    (2012) e39504), less where bone is near the skin. Joint centres do not move.
+
+    Args:
+        stature: Height of the person [m].
+        mass: Mass of the person [kg].
+    """
+    lowest, highest = (index / (usual_mass(stature) / stature**2) for index in MASS_INDEX_RANGE)
+    ratio = min(max(mass / usual_mass(stature), lowest), highest)
+    return round(math.sqrt(ratio), 6)
+
+
 def average_sizes(stature: float, mass: float, sex: Sex) -> dict[str, float]:
     """Sizes of the body [m] and masses of a leg [kg] by name, the same left and right.
 
@@ -118,6 +136,6 @@ def average_sizes(stature: float, mass: float, sex: Sex) -> dict[str, float]:
     average = {name: lengths[name] * stature for name in names}
     average["heel"] = HEEL_FRACTION * average["foot_length"]
     average["ball"] = BALL_FRACTION * average["foot_length"]
-    average["waist_width"] = HIP_BREADTH * stature + WAIST_CLEARANCE
+    average["waist_width"] = HIP_BREADTH * stature * girth(stature, mass) + WAIST_CLEARANCE
     average |= {f"{name}_mass": DE_LEVA[sex][name].mass * mass for name in ("thigh", "shank", "foot")}
     return {name: round(value, 6) for name, value in average.items()}

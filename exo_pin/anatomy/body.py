@@ -199,6 +199,16 @@ class Body:
         return max(leg.length for leg in self.legs)
 
     @property
+    def girth(self) -> float:
+        """Breadth and depth / those of a person of the same stature and the usual mass."""
+        return anthropometry.girth(self.stature, self.mass)
+
+    @property
+    def hip_breadth(self) -> float:
+        """Breadth over the hips, with soft tissue [m]: the waist ring's inner width without its padding."""
+        return self.waist_width - anthropometry.WAIST_CLEARANCE
+
+    @property
     def upper_mass(self) -> float:
         """The wearer's head, arms and trunk [kg], lumped in the pelvis."""
         return self.mass - sum(leg.thigh_mass + leg.shank_mass + leg.foot_mass for leg in self.legs)

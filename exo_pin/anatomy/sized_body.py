@@ -152,5 +152,8 @@ def _by_table(name: str, known: Mapping[str, Measure]) -> Measure:
     if SIZES[name].unit == "kg":
         default = known["mass"].origin == "default"
         return Measure(0.0, "default" if default else "mass table", "share of the mass (de Leva 1996)")
+    if name == "waist_width":
+        default = known["mass"].origin == "default"
+        return Measure(0.0, "default" if default else "mass table", "breadth over the hips by the mass")
     default = known["stature"].origin == "default"
     return Measure(0.0, "default" if default else "stature table", "share of the stature")

@@ -43,14 +43,18 @@ LOKOMAT = Device(
     pelvis=("pelvis_up",),
     actuators=_loose("pelvis_up"),
     treadmill=(0.5 / 3.6, 3.2 / 3.6),
+    masses=(0.0, 135.0),
     source="PMC9768983, table 3: DC motors at hip and knee, ankle passive, pelvis fixed, body-weight support "
-    "with vertical and lateral movement of the centre of mass. Chen, Zhang and Zhu: ball screws. " + _CHOSEN,
+    "with vertical and lateral movement of the centre of mass. Chen, Zhang and Zhu: ball screws. Users up to "
+    "135 kg: exclusion criterion of the trial Energy consumption and cardiorespiratory load during "
+    "robot-assisted gait training (strokecenter.org). " + _CHOSEN,
     remarks=(
         "Of the support's movements the record has the vertical one alone.",
         "The ankle is carried by foot lifters and moved by the treadmill; here it is held at zero unless "
         "released.",
         "Its treadmill runs at 0.5 to 3.2 km/h: no primary source of these two numbers was at hand; a device "
         "file can hold another range.",
+        "No source at hand gives the ranges of its thigh, shank and pelvis.",
         _TRAVEL,
     ),
 )
@@ -97,6 +101,7 @@ H2 = Device(
     remarks=(
         "Worn over ground: the pelvis goes with the person.",
         "Its driven joints have mechanical stops, whose angles were not at hand: the body's ranges hold.",
+        "Thigh and shank are telescopic bars, whose ranges were not at hand either.",
     ),
 )
 
@@ -108,11 +113,17 @@ HK4 = Device(
     pelvis="free",
     statures=(1.55, 1.91),
     masses=(0.0, 113.0),
+    thighs=(0.355, 0.47),
+    hip_breadths=(0.0, 0.42),
     source="JNER 2021, s12984-021-00815-5, table 1: hips and knees driven; Ekso 23 kg, ReWalk 23.3 kg, "
     "Indego 12 kg. Users: Ekso 1.58 to 1.88 m, up to 100 kg; ReWalk 1.60 to 1.90 m, up to 100 kg; Indego "
-    "1.55 to 1.91 m, up to 113 kg. " + _CHOSEN,
+    "1.55 to 1.91 m, up to 113 kg. Indego's trial NCT02202538: femur of 35.5 to 47 cm and hips of at most "
+    "42 cm, measured in sitting. " + _CHOSEN,
     remarks=(
-        "The record's range of users is the widest of the three, Indego's.",
+        "The record's ranges of users are Indego's, the widest of the three.",
+        "Ekso takes hips of at most 42 cm too, upper legs of 51 to 61.4 cm and lower legs of 48 to 63.4 cm "
+        "(inclusion criteria of the trial Performance attributes and user progression while using Ekso): "
+        "lengths of another definition than hip centre to knee and knee to ankle, so they are not judged.",
         "Worn over ground: the pelvis goes with the person. The ankle is sprung in Ekso; here it is held at "
         "zero unless released.",
     ),

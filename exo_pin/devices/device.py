@@ -54,7 +54,7 @@ class Device:
         masses: Lightest and heaviest person [kg], likewise; 0 where a source has the heaviest alone.
         thighs: Shortest and longest thigh, hip centre to knee [m], likewise.
         shanks: Shortest and longest shank, knee to ankle [m], likewise.
-        hip_widths: Least and largest distance of the hip centres [m], likewise.
+        hip_breadths: Least and largest breadth over the hips, with soft tissue [m], likewise.
         source: Where the joints and every number come from.
         remarks: Where sources differ, and what the record leaves out.
 
@@ -77,7 +77,7 @@ class Device:
     masses: tuple[float, float] | None = None
     thighs: tuple[float, float] | None = None
     shanks: tuple[float, float] | None = None
-    hip_widths: tuple[float, float] | None = None
+    hip_breadths: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -233,7 +233,7 @@ _SPANS = {
     "masses": 500.0,
     "thighs": 10.0,
     "shanks": 10.0,
-    "hip_widths": 10.0,
+    "hip_breadths": 10.0,
 }
 """Entries that are a range, and the largest value that is accepted [m/s, m, kg]."""
 

@@ -28,7 +28,7 @@ _KINDS: Mapping[str, tuple[str, Callable[[object], bool]]] = {
     "masses_kg": ("two numbers [lightest, heaviest]", lambda x: _is_pair(x)),
     "thighs_m": ("two numbers [shortest, longest]", lambda x: _is_pair(x)),
     "shanks_m": ("two numbers [shortest, longest]", lambda x: _is_pair(x)),
-    "hip_widths_m": ("two numbers [least, largest]", lambda x: _is_pair(x)),
+    "hip_breadths_m": ("two numbers [least, largest]", lambda x: _is_pair(x)),
     "actuators": ("tables [actuators.<movement>]", lambda x: isinstance(x, dict)),
     "ranges_deg": ("a table of movement = [lower, upper]", lambda x: isinstance(x, dict)),
     "ranges_m": ("a table of slide = [lower, upper]", lambda x: isinstance(x, dict)),
@@ -62,7 +62,7 @@ def _device(values: dict[str, Any]) -> Device:
     for name in {"pelvis", "remarks"} & set(values):
         values[name] = values[name] if isinstance(values[name], str) else tuple(values[name])
     values["treadmill"] = _scaled(values.pop("treadmill_km_h", None), 1 / 3.6)
-    for name in ("statures_m", "masses_kg", "thighs_m", "shanks_m", "hip_widths_m"):
+    for name in ("statures_m", "masses_kg", "thighs_m", "shanks_m", "hip_breadths_m"):
         values[name.rpartition("_")[0]] = _scaled(values.pop(name, None), 1.0)
     device = Device(actuators=actuators, ranges=ranges, **values)
     _check_movements(device, (*actuators, *ranges))

@@ -83,7 +83,7 @@ def _person(device: Device, body: Body) -> list[Fit]:
     sizes = [
         ("stature", body.stature, device.statures, "m"),
         ("mass", body.mass, device.masses, "kg"),
-        ("hip width", body.hip_width, device.hip_widths, "m"),
+        ("hip breadth", body.hip_breadth, device.hip_breadths, "m"),
     ]
     for name, available in (("thigh", device.thighs), ("shank", device.shanks)):
         legs = {f"{side} {name}": getattr(body.leg(side), name) for side in SIDES}

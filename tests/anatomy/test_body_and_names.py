@@ -71,6 +71,22 @@ def test_a_thigh_weighs_at_its_table_place_when_the_hardware_is_light():
     assert centre[2] == pytest.approx(-0.4095 * body.left_thigh, rel=1e-3)  # 10 g of 9.9 kg
 
 
+@given(st.floats(1.3, 2.1), st.floats(14.0, 60.0))
+def test_breadths_grow_with_the_root_of_the_mass_and_joint_centres_do_not_move(stature, index):
+    usual, other = (Body.from_stature(stature, mass=i * stature**2) for i in (70 / 1.75**2, index))
+    ratio = math.sqrt(other.mass / usual.mass)
+    assert usual.girth == 1.0
+    assert other.hip_breadth == pytest.approx(ratio * usual.hip_breadth, abs=3e-6)  # sizes are whole um
+    assert other.hip_width == usual.hip_width
+    assert [leg.length for leg in other.legs] == [leg.length for leg in usual.legs]
+
+
+def test_nobody_is_thinner_than_the_starving_nor_as_thin_as_the_bones():
+    thin = Body.from_stature(1.9, mass=12.0)
+    assert thin.girth == Body.from_stature(1.9, mass=8.0 * 1.9**2).girth
+    assert thin.hip_breadth > thin.hip_width
+
+
 def test_numbers_of_numpy_are_numbers():
     assert Body.from_stature(np.float32(1.5), mass=np.int64(60)).mass == 60.0
 

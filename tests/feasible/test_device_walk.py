@@ -266,11 +266,11 @@ def test_every_size_with_a_range_is_judged_and_uneven_legs_side_by_side():
 
     narrow = Device(
         name="narrow", joints=both("knee_flexion"), source="made up", thighs=(0.40, 0.43), shanks=(0.5, 0.6),
-        hip_widths=(0.1, 0.15), masses=(50.0, 60.0),
+        hip_breadths=(0.1, 0.3), masses=(50.0, 60.0),
     )  # fmt: skip
     robot = load_robot(Body.from_stature(left_thigh=0.38), device=narrow)
     bad = {fit.of for fit in fits(robot, normative_gait()) if not fit.ok}
-    assert bad == {"left thigh", "shank", "hip width", "mass"}
+    assert bad == {"left thigh", "shank", "hip breadth", "mass"}
 
 
 @pytest.mark.parametrize(("shorter", "remarked"), [(0.0, False), (0.003, False), (0.012, True)])

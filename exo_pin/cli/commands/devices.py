@@ -51,7 +51,7 @@ def _to_json(device: Device) -> dict[str, Any]:
         "masses_kg": device.masses,
         "thighs_m": device.thighs,
         "shanks_m": device.shanks,
-        "hip_widths_m": device.hip_widths,
+        "hip_breadths_m": device.hip_breadths,
         "ranges": {m: list(pair) for m, pair in device.ranges.items() if m in device.actuators},
         "source": device.source,
         "remarks": device.remarks,
@@ -101,7 +101,7 @@ def _print_one(device: Device) -> None:
         "masses": _span(device.masses, 1.0, "kg"),
         "thighs": _span(device.thighs, 1.0, "m"),
         "shanks": _span(device.shanks, 1.0, "m"),
-        "hip widths": _span(device.hip_widths, 1.0, "m"),
+        "hip breadths": _span(device.hip_breadths, 1.0, "m"),
     }
     show.table(f"{device.name}: {device.title or device.name}", ["", ""], [list(x) for x in lines.items()])
     rows = [_row(device, joint) for joint in dict.fromkeys(map(movement_of, (*device.joints, *device.added)))]

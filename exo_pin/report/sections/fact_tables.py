@@ -41,7 +41,8 @@ def body(robot: Robot) -> Section:
     ]
     note = (
         "Lengths that were not given follow from the stature (Drillis and Contini 1966), masses and inertias "
-        "from de Leva 1996; ankle height, foot breadth, heel, ball and waist are design defaults."
+        "from de Leva 1996; ankle height, foot breadth, heel and ball are design defaults, the waist follows "
+        "stature and mass."
     )
     tables: tuple[Block, ...] = (
         Table(("body", "value", "unit"), whole),

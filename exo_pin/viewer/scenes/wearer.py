@@ -1,9 +1,9 @@
 """The wearer: a translucent person whose legs hang on the exoskeleton's own links.
 
 The figure is `human_description` of example-robot-data (BSD-2-Clause, Gepetto team), welded, thinned and
-scaled to the body. Thighs, shanks and feet hang on the exoskeleton's links, so hips, knees and ankles
-coincide with its joints by construction. The upper body is illustration: the trunk stays nearly upright, and
-the arms swing with the opposite hip.
+scaled to the body, trunk and limbs by its girth. Thighs, shanks and feet hang on the exoskeleton's links, so
+hips, knees and ankles coincide with its joints by construction. The upper body is illustration: the trunk
+stays nearly upright, and the arms swing with the opposite hip.
 """
 
 from __future__ import annotations
@@ -56,10 +56,10 @@ def wearer(body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Ar
     size = (body.stature - body.leg_length) / _HEAD
     middle = {"pelvis": f"{links['pelvis']}/wearer", "trunk": f"{root}/look"}
     left, right = (_limbs(links, root, side) for side in SIDES)
-    shapes = _middle(size) | _limb_shapes(body, size)
+    shapes = _middle(size, body.girth) | _limb_shapes(body, size)
     commands = [_picture(path, shapes[name]) for name, path in (middle | left).items()]
     commands += [place(path, _mirrored(body, name)) for name, path in right.items()]
-    chain, placements = _arms(root, size)
+    chain, placements = _arms(root, size, body.girth)
     return Actor(
         commands=(*commands, *placements),
         chain=chain,
@@ -85,33 +85,37 @@ def _picture(path: str, solid: Solid) -> Command:
     return translucent(path, mesh(solid.vertices, solid.faces, solid.normals), _SKIN)
 
 
-def _middle(size: float) -> dict[str, Solid]:
+def _middle(size: float, girth: float) -> dict[str, Solid]:
     """Pelvis, and trunk with head; scales and offsets are those of the figure's URDF."""
     x, y, z = _LUMBAR - np.array([0.0, 0.0, 0.05])
+    torso = part("torso", (0.005783, 0.005783, 0.009093), (0, 0, 0.223 - 0.3596))
     trunk = [
-        part("abdomen", (0.0074,) * 3),
-        part("torso", (0.005783, 0.005783, 0.009093), (0, 0, 0.223 - 0.3596)),
+        scaled(part("abdomen", (0.0074,) * 3), (girth, girth, 1)),
+        scaled(torso, (girth, girth**0.5, 1)),  # between the shoulders there is more bone
         part("head", (0.0056,) * 3, (0, 0, 0.473)),
         sphere(0.046).placed(translation(0, 0, 0.473)),
     ]
     pelvis = part("pelvis", (0.00643, 0.0059, 0.0059), (float(x), float(y), float(z)))
-    return {"pelvis": scaled(pelvis, (size,) * 3), "trunk": scaled(solids.joined(trunk), (size,) * 3)}
+    return {
+        "pelvis": scaled(pelvis, (size * girth, size * girth, size)),
+        "trunk": scaled(solids.joined(trunk), (size,) * 3),
+    }
 
 
 def _limb_shapes(body: Body, size: float) -> dict[str, Solid]:
     """The left limbs, as long as the body's."""
-    leg = body.leg("left")
+    leg, wide = body.leg("left"), size * body.girth
     shank = solids.joined([part("lowerleg", (0.0063, 0.007, 0.0066)), sphere(0.035)])
     arm = solids.joined([part("upperarm", (0.0063, 0.0069, 0.006), (0, 0, 0.05)), sphere(0.052)])
     hand = part("hand", (0.0061,) * 3, (0, 0, -0.287))
     forearm = solids.joined([part("lowerarm", (0.0064,) * 3), sphere(0.034), hand])
     return {
         "thigh": scaled(
-            part("upperleg", (0.0062, 0.0069, 0.0064), (0, 0, -0.05)), (size, size, leg.thigh / _THIGH)
+            part("upperleg", (0.0062, 0.0069, 0.0064), (0, 0, -0.05)), (wide, wide, leg.thigh / _THIGH)
         ),
-        "shank": scaled(shank, (size, size, leg.shank / _SHANK)),
+        "shank": scaled(shank, (wide, wide, leg.shank / _SHANK)),
         "foot": _foot(leg),
-        "upper_arm": scaled(arm, (size,) * 3),
+        "upper_arm": scaled(arm, (wide, wide, size)),
         "forearm": scaled(forearm, (size,) * 3),
     }
 
@@ -141,13 +145,13 @@ def _mirrored(body: Body, name: str) -> Array:
     return np.diag([*np.array(along) * (1, -1, 1), 1.0])
 
 
-def _arms(root: str, size: float) -> tuple[Chain, list[Command]]:
+def _arms(root: str, size: float, girth: float) -> tuple[Chain, list[Command]]:
     """The upper body's chain: two shoulders and two elbows that flex."""
     joints, links, commands = [], {"trunk": root}, []
     for side, s in zip(SIDES, (1, -1), strict=True):
         upper, fore = f"{root}/{side}_upper_arm", f"{root}/{side}_upper_arm/turn/{side}_forearm"
-        hang = translation(*(size * _SHOULDER * (1, s, 1)))
-        hang[:3, :3] = pin.rpy.rpyToMatrix(s * _SPREAD, 0.0, 0.0)
+        hang = translation(*(size * _SHOULDER * (1, s * girth**0.5, 1)))
+        hang[:3, :3] = pin.rpy.rpyToMatrix(s * girth * _SPREAD, 0.0, 0.0)
         commands += [place(upper, hang), place(fore, translation(0, 0, -size * _UPPER_ARM))]
         for name, path in ((f"{side}_shoulder", upper), (f"{side}_elbow", fore)):
             joints.append(JointNode(name, f"{path}/turn", (0.0, -1.0, 0.0), "revolute"))
