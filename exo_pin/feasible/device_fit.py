@@ -48,9 +48,11 @@ class Fit:
     def how(self) -> str:
         """Both in words."""
         low, high = self.available
-        possible = f"{low:.2f} to {high:.2f}" if low > 0 else f"at most {high:.2f}"
+        digits = 3 if self.unit == "m" and self.of != "stature" else 2  # parts of the body to the millimetre
+        possible = f"{low:.{digits}f} to {high:.{digits}f}" if low > 0 else f"at most {high:.{digits}f}"
         name = f"{self.of} " if self.of else ""
-        required = f"{self.required:.2f} {self.unit} required" if np.isfinite(self.required) else "not known"
+        known = np.isfinite(self.required)
+        required = f"{self.required:.{digits}f} {self.unit} required" if known else "not known"
         return f"{name}{required}, {possible} {self.unit} possible"
 
     def facts(self) -> dict[str, Any]:

@@ -79,6 +79,19 @@ class DeviceWalk:
         )
 
     @property
+    def largest_cadence(self) -> float | None:
+        """Largest factor on the recorded cadence: of joints, treadmill and the device's own motion over it.
+
+        The one of the concession where that is the cadence; None where another cadence does not help.
+        """
+        slower = next((made.how_much for made in self.concessions if made.what == "cadence"), None)
+        if slower is not None or not self.as_recorded.cadence_decides:
+            return slower
+        if self.verdict == "no" or self.belt is None or self.device.treadmill is None:
+            return self.as_recorded.cadence
+        return max(1.0, min(self.as_recorded.cadence, self.device.treadmill[1] / self.belt))
+
+    @property
     def reason(self) -> str:
         """Why the verdict is what it is, in words."""
         if self.verdict == "no":

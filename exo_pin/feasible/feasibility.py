@@ -96,20 +96,25 @@ class Feasibility:
         return not self.failures
 
     @property
+    def person_fits(self) -> bool:
+        """Whether the device takes a person of these sizes and this mass."""
+        return all(fit.ok for fit in self.fits if fit.what == "person")
+
+    @property
     def cadence_decides(self) -> bool:
         """Whether only failures that depend on the cadence remain: speeds, accelerations, the treadmill."""
         return not (
             any(demand.position.outside.any() or _too_strong(demand).any() for demand in self.joints)
             or self.colliding.any()
             or self._out_of_reach
-            or self._person_does_not_fit
+            or not self.person_fits
         )
 
     @property
     def amplitude_decides(self) -> bool:
         """Whether another amplitude can help: not with the stature, nor with torques (unknown then)."""
         too_strong = any(_too_strong(demand).any() for demand in self.joints)
-        return not (too_strong or self._person_does_not_fit)
+        return not (too_strong or not self.person_fits)
 
     @property
     def failures(self) -> list[Failure]:
@@ -194,10 +199,6 @@ class Feasibility:
     @property
     def _out_of_reach(self) -> list[str]:
         return [side for side, slack in self.reach.items() if slack < -LIMIT_TOLERANCE]
-
-    @property
-    def _person_does_not_fit(self) -> bool:
-        return any(fit.what == "person" and not fit.ok for fit in self.fits)
 
 
 def _too_strong(demand: JointDemand) -> Mask:

@@ -258,6 +258,20 @@ def test_a_person_beyond_a_source_s_range_does_not_fit_and_the_size_is_named(dev
     assert not [fit for fit in inside.as_recorded.fits if not fit.ok]
 
 
+def test_feasible_says_one_largest_cadence_and_why_there_is_none(capsys):
+    code, said = _told(capsys, "feasible", "free", "--device", "lokomat", "--json")
+    told = json.loads(said)
+    assert (code, told["verdict"], told["concession"]["what"]) == (0, "concession", "cadence")
+    assert told["largest_cadence_factor"] == told["concession"]["how_much"]
+    code, said = _told(capsys, "feasible", "free", "--device", "hk4", "--stature", "1.95")
+    assert code == 1
+    assert "possible: no walk of this person" in said
+    code, said = _told(capsys, "feasible", "very_fast", "--device", "lokomat")
+    assert code == 1
+    assert "times the cadence" in said
+    assert "less than the 0.5 that counts as a concession" in said
+
+
 def test_every_size_with_a_range_is_judged_and_uneven_legs_side_by_side():
     from exo_pin.anatomy import Body
     from exo_pin.devices import Device, both

@@ -57,7 +57,8 @@ def run(args: argparse.Namespace) -> int:
     known, gap = torque_options.given(args), args.gap / 1e3
     found = device_options.answer(args, body, gait, acceleration=acceleration, gap=gap, torques=known)
     if args.json:
-        show.as_json(found.as_recorded.facts() | {"ok": found.ok} | found.facts())
+        whole = {"ok": found.ok, "largest_cadence_factor": found.largest_cadence}
+        show.as_json(found.as_recorded.facts() | whole | found.facts())
     else:
         _print(found, args.gait)
     return 0 if found.ok else 1
@@ -76,7 +77,8 @@ def _print(found: DeviceWalk, name: str) -> None:
     dropped = _dropped(verdict)
     if dropped:
         print(f"required, but locked or held here, up to: {', '.join(dropped)}")
-    print(f"possible: {_cadence(verdict)}; {_amplitude(verdict)}")
+    if not found.concessions:  # else the verdict names what is possible
+        print(f"possible: {_possible(found)}")
     for sentence in verdict.conditions:
         print(f"note: {sentence}")
     for failure in verdict.failures:
@@ -121,18 +123,26 @@ def _print_demands(title: str, unit: str, demands: Sequence[JointDemand]) -> Non
         show.table(title, [*(columns[k] for k in kept), ""], lines)
 
 
-def _cadence(verdict: Feasibility) -> str:
+def _possible(found: DeviceWalk) -> str:
+    """Largest cadence and amplitude of the walk on the device."""
+    if not found.as_recorded.person_fits:
+        return "no walk of this person, whom the device does not take"
+    return f"{_cadence(found)}; {_amplitude(found.as_recorded)}"
+
+
+def _cadence(found: DeviceWalk) -> str:
     from exo_pin.feasible import LARGEST_CADENCE
 
-    if not verdict.cadence_decides:
+    cadence, gait = found.largest_cadence, found.as_recorded.gait
+    if cadence is None:
         return "at no cadence (what fails does not depend on it)"
-    if verdict.cadence >= LARGEST_CADENCE:
+    if cadence >= LARGEST_CADENCE:
         return f"at {LARGEST_CADENCE:g} times the cadence, and more was not tried"
-    text = f"up to {math.floor(100 * verdict.cadence) / 100:.2f} times the cadence"
-    if verdict.gait.periodic:
-        steps = 120 / verdict.gait.duration
-        text += f" ({steps:.0f} -> {math.floor(steps * verdict.cadence)} steps/min)"
-    return text
+    text = f"up to {math.floor(100 * cadence) / 100:.2f} times the cadence"
+    if gait.periodic:
+        steps = 120 / gait.duration
+        text += f" ({steps:.0f} -> {math.floor(steps * cadence)} steps/min)"
+    return text + _too_little(cadence)
 
 
 def _amplitude(verdict: Feasibility) -> str:
@@ -144,7 +154,15 @@ def _amplitude(verdict: Feasibility) -> str:
         return "at no amplitude of the joints"
     if verdict.amplitude >= LARGEST_AMPLITUDE:
         return f"at {LARGEST_AMPLITUDE:g} times the movement of the joints, and more was not tried"
-    return f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
+    text = f"up to {math.floor(100 * verdict.amplitude) / 100:.2f} times the movement of the joints"
+    return text + _too_little(verdict.amplitude)
+
+
+def _too_little(share: float) -> str:
+    """Why a possible share of cadence or amplitude is no concession, after its number."""
+    from exo_pin.feasible import LEAST_SHARE
+
+    return f", less than the {LEAST_SHARE:g} that counts as a concession" if share < LEAST_SHARE else ""
 
 
 def _row(demand: JointDemand) -> list[str]:
