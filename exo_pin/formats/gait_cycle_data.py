@@ -65,6 +65,7 @@ class GaitCycleFile(TrialFile):
         """
         why = "its curves have names and signs of their own, in degrees"
         options.refuse(self.path, "preset", "mapping", "units", why=why)
+        self._refuse_one_side()
         curves = {joint(side, m): self._curve(side, m) for side in SIDES for m in _CURVES}
         sizes = {len(values) for values in curves.values()}
         if len(sizes) > 1:
@@ -89,6 +90,19 @@ class GaitCycleFile(TrialFile):
         source = f"{self.path.name}: mean cycle of {n + 1} points, {period:.3g} s {how}"
         metadata = Metadata(events, periodic=True, source=source, remarks=tuple(remarks))
         return to_gait(self.path, period * np.arange(n) / n, q, None, metadata)
+
+    def _refuse_one_side(self) -> None:
+        """The other leg of a person is not this one's mirror image, so nothing stands in for it."""
+        held = [
+            side
+            for side in SIDES
+            if any(f"{side.title()}{name}" in self.variables for name in _CURVES.values())
+        ]
+        if len(held) == 1:
+            other = "left" if held == ["right"] else "right"
+            why = f"holds the {held[0]} side alone, and a walk needs both legs"
+            wanted = f"expected the curves of the {other} side too, in the same file"
+            raise FormatError(self.path, f"{why}; {wanted}, or the recorded trial")
 
     def _curve(self, side: Side, movement: Movement) -> Array:
         """`(k,)` [deg]."""

@@ -94,6 +94,21 @@ def test_damaged_cycles_are_refused(lab, path, walk, old, new, match):
         load_gait(path)
 
 
+@pytest.mark.parametrize(("left_out", "kept"), [("Left", "right"), ("Right", "left")])
+def test_one_side_alone_is_refused_by_name(lab, path, walk, left_out, kept):
+    path.write_text(lab.gcd(walk).replace(f"!{left_out}", "!Other"))
+    path.write_text("\n".join(_unique(path.read_text())))
+    with pytest.raises(
+        FormatError, match=f"holds the {kept} side alone.*curves of the {left_out.lower()} side"
+    ):
+        load_gait(path)
+
+
+def _unique(text):
+    """Lines with numbered variables, so that no name occurs twice."""
+    return [f"{line}{k}" if line.startswith("!Other") else line for k, line in enumerate(text.splitlines())]
+
+
 def test_a_file_without_variables_is_named(path):
     path.write_text("hello\n")
     with pytest.raises(FormatError, match="gait cycle data"):

@@ -116,6 +116,50 @@ def test_a_plate_with_a_centre_of_pressure_beyond_10_km_is_left_out(lab, path, w
     np.testing.assert_allclose(plate.point[300:, 0], 0.25)
 
 
+def _loads(reference, free):
+    """Force [N], moment about a point [N mm], and centre of pressure [mm] of a step `(50, 3)` each."""
+    s = np.linspace(0.1, 0.9, 50)
+    force = np.stack([80 * np.cos(np.pi * s), 20 * np.sin(7 * s), 700 * np.sin(np.pi * s)], axis=1)
+    point = np.stack([200 + 250 * s, -100 + 10 * s, 0 * s], axis=1)
+    moment = np.cross(point - reference, force) + np.stack([0 * s, 0 * s, 1e3 * free(s)], axis=1)
+    return force, moment, point
+
+
+@pytest.mark.parametrize("reference", [(0, 0, 0), (232, -254, 0), (232, -254, -41)])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_free_moments_follow_from_moments_about_any_point(lab, path, walk, reference, sign):
+    force, moment, point = _loads(np.array(reference), lambda s: 5 * np.sin(6 * s))
+    rows = np.hstack([sign * force, sign * moment, point])
+    lines = [f"{k // 10 + 1},{k % 10},{','.join(map(repr, row.tolist()))}" for k, row in enumerate(rows)]
+    path.write_text("\n".join([*DEVICES, *lines, "", lab.nexus(walk)]))
+    (plate,) = load_forces(path)
+    np.testing.assert_allclose(plate.force, force)
+    np.testing.assert_allclose(plate.moment[:, 2], 5 * np.sin(6 * np.linspace(0.1, 0.9, 50)), atol=1e-9)
+    np.testing.assert_array_equal(plate.moment[:, :2], 0)
+    assert "free moments" not in " ".join(load_gait(path).remarks)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("Mx,My,Mz", "Nx,Ny,Nz", "no moments Mx, My, Mz"),
+        ("N.mm", "lbf.ft", "moments in 'lbf.ft'"),
+        ("Mx,My,Mz,Cx,Cy,Cz", "Mx,My,Mz,Cx,Cy,Cz", "do not agree"),
+    ],
+)
+def test_free_moments_that_are_not_known_are_said(lab, path, walk, old, new, why):
+    force, moment, point = _loads(np.zeros(3), np.cos)
+    moment = moment[:, [1, 0, 2]] if old == new else moment  # in other axes
+    rows = np.hstack([force, moment, point])
+    lines = [f"{k // 10 + 1},{k % 10},{','.join(map(repr, row.tolist()))}" for k, row in enumerate(rows)]
+    head = [line.replace(old, new) for line in DEVICES]
+    path.write_text("\n".join([*head, *lines, "", lab.nexus(walk)]))
+    (plate,) = load_forces(path)
+    np.testing.assert_array_equal(plate.moment, 0)
+    (said,) = [text for text in load_gait(path).remarks if "free moments" in text]
+    assert why in said
+
+
 def test_two_subjects_are_said(lab, path, walk):
     outputs = lab.pig(walk)
     twice = {f"Anna:{k}": v for k, v in outputs.items()} | {f"Ben:{k}": v + 1 for k, v in outputs.items()}

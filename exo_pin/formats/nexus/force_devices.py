@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from exo_pin.arrays import Array
 from exo_pin.formats.c3d.plates import FoundPlates
+from exo_pin.formats.nexus.free_moments import free_moments
 from exo_pin.formats.nexus.sections import ExportedSection, Quantity
-from exo_pin.formats.units import is_newton, metres_per
+from exo_pin.formats.units import is_newton, metres_per, newton_metres_per
 from exo_pin.gait.trial import ForcePlate, plate_damage
 
 _LOADED = 20.0
@@ -14,35 +16,61 @@ _LOADED = 20.0
 
 
 def force_devices(section: ExportedSection) -> FoundPlates:
-    """The force plates of a section: pairs of quantities with the axes Fx Fy Fz and Cx Cy Cz of one device.
+    """The force plates of a section: quantities with the axes Fx Fy Fz, Cx Cy Cz, Mx My Mz of one device.
 
     Nexus may export the force on the plate instead of that on the foot: where the plates are pressed upwards,
-    the sign is turned. Free moments are not in the export and are 0.
+    the sign is turned. Without moments that agree with force and centre of pressure the free moment is 0.
     """
     per_frame = int(section.part.max()) + 1 if section.part.size else 1
     time = ((section.frame - 1) * per_frame + section.part) / section.rate
     plates, remarks = list[ForcePlate](), list[str]()
-    forces = [q for q in section.quantities if _axes(q, "F")]
-    points = [q for q in section.quantities if _axes(q, "C")]
-    for quantity in forces:
+    for quantity in section.quantities:
+        if not _axes(quantity, "F"):
+            continue
         name = _device(quantity)
-        at = next((q for q in points if _device(q) == name), None)
-        metres = None if at is None else metres_per(at.units[0])
-        force = np.nan_to_num(quantity.values[:, :3])
-        if at is None or metres is None or not is_newton(quantity.units[0]):
+        parts = {letter: _part(section, name, letter) for letter in "CM"}
+        force, point = np.nan_to_num(quantity.values[:, :3]), _metres(parts["C"])
+        if point is None or not is_newton(quantity.units[0]):
             remarks.append(f"device {name[:60]} is left out: expected N and a centre of pressure in mm")
             continue
-        point = metres * at.values[:, :3]
-        damage = plate_damage(force, point)
-        if damage:
+        if damage := plate_damage(force, point):
             remarks.append(f"device {name[:60]} has {damage} and is left out: damaged?")
             continue
         loaded = force[np.abs(force[:, 2]) > _LOADED, 2]
-        if loaded.size and loaded.mean() < 0:
-            force = -force
+        sign = -1.0 if loaded.size and loaded.mean() < 0 else 1.0
+        if sign < 0:
             remarks.append(f"device {name[:60]}: the file has the force on the plate; the sign is turned")
-        plates.append(ForcePlate(name, time, force, point, np.zeros_like(force)))
+        moment, why = _free_moment(force, parts["M"], point)
+        if why:
+            remarks.append(f"device {name[:60]}: {why}: its free moments are taken as 0")
+        plates.append(ForcePlate(name, time, sign * force, point, sign * moment))
     return FoundPlates(tuple(plates), tuple(remarks))
+
+
+def _part(section: ExportedSection, device: str, letter: str) -> Quantity | None:
+    """The quantity of that device with the axes of that letter."""
+    found = (q for q in section.quantities if _axes(q, letter) and _device(q) == device)
+    return next(found, None)
+
+
+def _metres(point: Quantity | None) -> Array | None:
+    """`(m, 3)` centre of pressure [m]; None without one."""
+    metres = None if point is None else metres_per(point.units[0])
+    return None if point is None or metres is None else np.asarray(metres * point.values[:, :3])
+
+
+def _free_moment(force: Array, moment: Quantity | None, point: Array) -> tuple[Array, str]:
+    """`(m, 3)` of the force in the file, and why it is not known; empty where it is."""
+    nothing = np.zeros_like(force)
+    if moment is None:
+        return nothing, "no moments Mx, My, Mz"
+    turning = newton_metres_per(moment.units[0])
+    if turning is None:
+        return nothing, f"moments in {moment.units[0][:12]!a}, not N.mm or N.m"
+    free = free_moments(force, turning * moment.values[:, :3], point)
+    if free is None:
+        return nothing, "its moments do not agree with force and centre of pressure"
+    return free, ""
 
 
 def _axes(quantity: Quantity, letter: str) -> bool:
