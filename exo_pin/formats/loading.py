@@ -18,6 +18,7 @@ from exo_pin.formats.tables import TABLE_SUFFIXES
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 from exo_pin.gait.even_clock import even_clock, evened_remark, within
+from exo_pin.gait.sampling import doubtful_unit, missing_samples
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
 
@@ -69,7 +70,7 @@ def load_gait(
     order = None if pelvis_order is None else tuple(pelvis_order)
     osim = None if model is None else Path(model)
     options = ReadOptions(preset, mapping, units, osim, order, tuple(columns), row_rate)
-    return _on_even_clock(file.gait(options))
+    return _on_even_clock(name, file.gait(options))
 
 
 def load_markers(path: str | Path | TrialFile) -> Markers:
@@ -78,7 +79,8 @@ def load_markers(path: str | Path | TrialFile) -> Markers:
     Raises:
         FormatError: The file cannot be read; with file, reason and, in texts, line.
     """
-    return _on_even_clock(_opened(path, "markers").markers())
+    file = _opened(path, "markers")
+    return _on_even_clock(file.path, file.markers())
 
 
 def load_torques(
@@ -165,8 +167,16 @@ def save_gait(gait: Gait, path: str | Path, *, preset: SignPreset | None = None)
     write(gait, path)
 
 
-def _on_even_clock(record: _Record) -> _Record:
-    """The record with rounded time stamps on their even grid, before anybody differentiates."""
+def _on_even_clock(path: Path, record: _Record) -> _Record:
+    """The record with rounded time stamps on their even grid, before anybody differentiates.
+
+    Raises:
+        FormatError: The times cannot be seconds.
+    """
+    if why := doubtful_unit(record.time):
+        raise FormatError(path, f"{why}; milliseconds or frames? Expected a column of seconds")
+    if missing := missing_samples(record.time):
+        record = replace(record, remarks=(*record.remarks, missing))
     even = even_clock(record.time)
     if even is None:
         return record

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from exo_pin.anatomy.names import LengthUnit
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines
 from exo_pin.formats.read_options import ReadOptions
@@ -95,9 +95,20 @@ def open_trc(path: Path) -> TrcFile:
     if np.isnan(values[:, 1]).any():
         raise FormatError(path, "a frame without a time", line=first)
     remarks = _remarks(header, len(names), len(values))
+    again = _repeated(values)
+    if again.any():
+        remarks += (f"rows that repeat time and values of the row above: {again.sum()}, left out",)
+        values, position = values[~again], position[~again]
     with naming_file(path):
         trial = Markers(values[:, 1], tuple(places), position, source=path.name, remarks=remarks, unit=unit)
     return TrcFile(path, trial)
+
+
+def _repeated(values: Array) -> Mask:
+    """`(n,)` whether a row has time and coordinates of the row above."""
+    below, above = values[1:, 1:], values[:-1, 1:]
+    same = (below == above) | (np.isnan(below) & np.isnan(above))
+    return np.concatenate([[False], same.all(axis=1)])
 
 
 def _header(path: Path, lines: Sequence[str]) -> dict[str, str]:

@@ -32,6 +32,17 @@ def test_it_is_the_mot_of_the_same_walk(written):
     assert knee_preset(written[1]) == "opensim-rajagopal"
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_spreadsheets_semicolons_decimal_commas_and_quotes_are_the_same_table(written, separator):
+    expected = load_gait(written[1])
+    lines = [line.split(",") for line in written[1].read_text().splitlines()]
+    cells = [[f'"{cell.replace(".", ",")}"' for cell in line] for line in lines]
+    written[1].write_text("\ufeff" + "\r\n".join(separator.join(row) for row in cells), encoding="utf-8")
+    back = load_gait(written[1])
+    np.testing.assert_array_equal(back.q, expected.q)
+    np.testing.assert_array_equal(back.time, expected.time)
+
+
 def test_its_columns_can_still_be_mapped(written):
     names = ("hip_flexion", "hip_adduction", "hip_rotation", "ankle_dorsiflexion", "ankle_inversion")
     rest = ",".join(f"{side}_{name}" for side in ("left", "right") for name in names)

@@ -48,6 +48,29 @@ def same(gait, other):
     np.testing.assert_allclose(gait.base, other.base, atol=EXACT)
 
 
+@pytest.mark.parametrize("rename", [str.upper, str.title, lambda name: f"/JointSet/x/{name.upper()}/Value"])
+def test_coordinates_may_be_written_in_capitals(path, walk, rename):
+    same(load_gait(write(path, walk, rename=rename)), load_gait(write(path, walk)))
+
+
+@pytest.mark.parametrize("name", ["Time", "TIME", "time (s)", "Time [sec]", "time_"])
+def test_the_time_may_have_a_capital_and_a_unit(path, walk, name):
+    expected = load_gait(write(path, walk))
+    path.write_text(path.read_text().replace("time\t", f"{name}\t"))
+    if name == "time_":
+        with pytest.raises(FormatError, match="missing coordinates: time"):
+            load_gait(path)
+    else:
+        same(load_gait(path), expected)
+
+
+def test_decimal_commas_are_read(path, walk):
+    expected = load_gait(write(path, walk))
+    head, rows = path.read_text().split("endheader\n")
+    path.write_text(head + "endheader\n" + rows.replace(".", ","))
+    same(load_gait(path), expected)
+
+
 @pytest.mark.parametrize("stated", ["39", "41", "1", "000", "999999999999999", "9" * 5000, "-1", "many", ""])
 @pytest.mark.parametrize(("key", "what"), [("nRows={}", "rows"), ("datarows {}", "rows")])
 def test_another_number_of_rows_in_the_header_is_remarked(path, walk, key, what, stated):

@@ -54,6 +54,17 @@ def test_the_users_unit_goes_before_the_headers_and_that_is_said(path):
     assert open_trial(path).with_length_unit("mm").markers().remarks == ()
 
 
+def test_rows_that_repeat_the_row_above_are_left_out(path):
+    path.write_text(trc())
+    expected = load_markers(path)
+    lines = trc(n=4).splitlines()
+    path.write_text("\n".join([*lines[:7], lines[6], *lines[7:]]))
+    trial = load_markers(path)
+    np.testing.assert_array_equal(trial.position, expected.position)
+    assert "rows that repeat time and values of the row above: 1, left out" in trial.remarks
+    refused(path, "\n".join([*lines[:7], lines[6] + "9", *lines[7:]]), "does not increase")
+
+
 def test_empty_cells_are_markers_that_were_not_seen(path):
     path.write_text(trc(cell=lambda i, j: "" if (i, j // 3) in ((1, 0), (2, 1)) else "7"))
     trial = load_markers(path)

@@ -19,8 +19,8 @@ _CLOSE = 1.0
 def free_moments(force: Array, moment: Array, point: Array) -> Array | None:
     """`(m, 3)` free moments [N m]; None where force, moment and centre of pressure do not agree.
 
-    The export does not say which point its moments refer to: middle of the plate, origin of its sensors or of
-    the laboratory. It follows from the numbers, as nothing but a moment about the vertical acts at the centre of
+    The export does not say which point its moments refer to: the middle of a plate, its sensors or the
+    origin. It follows from the numbers, as nothing but a moment about the vertical acts at the centre of
     pressure: `M = (p - o) x F + T` with `T_x = T_y = 0`, linear in o.
 
     Args:

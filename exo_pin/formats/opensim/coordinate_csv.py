@@ -1,4 +1,4 @@
-"""OpenSim coordinates in a table with commas, as OpenCap's processing and data frames write them."""
+"""OpenSim coordinates in a table with commas or semicolons, as OpenCap and spreadsheets write them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 from exo_pin.files import first_lines, read_lines
 from exo_pin.formats.opensim.coordinate_names import LEG_COORDINATES
+from exo_pin.formats.opensim.coordinate_table import TIME_COLUMN, plain_name
 from exo_pin.formats.opensim.coordinates import coordinates_gait
 from exo_pin.formats.opensim.storage import Storage
 from exo_pin.formats.opensim.storage_file import StorageFile
@@ -34,14 +35,15 @@ class CoordinateCsv(StorageFile):
         """The walk by its coordinates, or as any table where the user names its columns."""
         named = [key for key in options.mapping if not is_number(key)]
         if named or options.columns or options.row_rate is not None:
-            return TableFile(self.path, self.lines, ",").gait(options)
+            return TableFile(self.path, self.lines, _separator(self.lines[0])).gait(options)
         return coordinates_gait(self.storage, options)
 
 
 def is_coordinate_csv(path: Path) -> bool:
     """Whether the first line names the time and coordinates of the legs."""
-    names = {name for line in first_lines(path, _HEAD)[:1] for name in cells_of(line, ",")}
-    return "time" in names and len(names & {*LEG_COORDINATES, *(f"{n}/value" for n in LEG_COORDINATES)}) > 1
+    lines = first_lines(path, _HEAD)[:1]
+    names = {plain_name(name) for line in lines for name in cells_of(line, _separator(line))}
+    return TIME_COLUMN in names and len(names & {*LEG_COORDINATES}) > 1
 
 
 def open_coordinate_csv(path: Path) -> CoordinateCsv:
@@ -51,6 +53,15 @@ def open_coordinate_csv(path: Path) -> CoordinateCsv:
         FormatError: Ragged rows, cells that are no number.
     """
     lines = read_lines(path)
-    names = [name or f"unnamed {k}" for k, name in enumerate(cells_of(lines[0], ","))]
-    table = parse(path, names, lines[1:], first=2, delimiter=",", gaps=True, repeated=True)
+    separator = _separator(lines[0])
+    names = [name or f"unnamed {k}" for k, name in enumerate(cells_of(lines[0], separator))]
+    rows = [line.replace('"', "") for line in lines[1:]]
+    if separator != ",":  # spreadsheets of many countries have a decimal comma
+        rows = [row.replace(",", ".") for row in rows]
+    table = parse(path, names, rows, first=2, delimiter=separator, gaps=True, repeated=True)
     return CoordinateCsv(path, Storage("Coordinates", {}, [], table), lines)
+
+
+def _separator(line: str) -> str:
+    """What separates the names: a comma, a semicolon or a tab."""
+    return max(",;\t", key=line.count)

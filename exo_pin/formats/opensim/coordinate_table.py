@@ -17,6 +17,9 @@ NEEDED = tuple(
 )
 """Coordinates without which there is no walk; models lock or lack the others (subtalar joint, planar hip)."""
 
+_USUAL = {*LEG_COORDINATES, *(f"pelvis_{part}" for part in ("tilt", "list", "rotation", "tx", "ty", "tz"))}
+"""Names that programs write in capitals too."""
+
 _DERIVATIVES = ("speeds", "velocities", "accelerations")
 """Titles of OpenSim's files with the same column names but other contents."""
 
@@ -35,7 +38,7 @@ def coordinate_table(storage: Storage) -> NumericTable:
         raise FormatError(
             path, f"titled {storage.title[:40]!r}; expected coordinates, not their derivatives", line=1
         )
-    names = tuple(_plain(name) for name in table.names)
+    names = tuple(plain_name(name) for name in table.names)
     plain = NumericTable(path, names, table.values, table.lines)
     if not set(LEG_COORDINATES) & set(names):
         raise FormatError(path, _instead(table.names), line=table.lines[0] - 1)
@@ -70,7 +73,13 @@ def _instead(names: tuple[str, ...]) -> str:
     return f"missing coordinates: none of hip_flexion_r, knee_angle_r ... (columns: {shown})"
 
 
-def _plain(name: str) -> str:
-    """`/jointset/hip_r/hip_flexion_r/value` -> `hip_flexion_r`; `/.../speed` stays as it is."""
+def plain_name(name: str) -> str:
+    """`/jointset/hip_r/hip_flexion_r/value` -> `hip_flexion_r`, `Knee_Angle_R` -> `knee_angle_r`.
+
+    Names that are not those of OpenSim's usual models stay as they are, `/.../speed` too.
+    """
+    if re.fullmatch(r"time\s*[\[(]?\s*(s|sec|seconds)?\s*[\])]?", name, re.IGNORECASE):
+        return TIME_COLUMN
     parts = name.split("/")
-    return parts[-2] if len(parts) > 1 and parts[-1] == "value" else name
+    name = parts[-2] if len(parts) > 1 and parts[-1].lower() == "value" else name
+    return name.lower() if name.lower() in _USUAL else name

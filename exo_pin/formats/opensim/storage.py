@@ -62,13 +62,19 @@ def read_storage(path: Path) -> Storage:
         raise FormatError(path, "no column names after 'endheader'", line=end + 1)
     cells = lines[start].split("\t") if "\t" in lines[start].strip() else lines[start].split()
     names = [name.strip() for name in cells if name.strip()]
-    _check_cells(path, keys, lines[start + 1 :], start + 2)
-    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=None, gaps=True, repeated=True)
+    rows = lines[start + 1 :]
+    if _check_cells(path, keys, rows, start + 2) == 1:
+        rows = [row.replace(",", ".") for row in rows]
+    table = parse(path, names, rows, first=start + 2, delimiter=None, gaps=True, repeated=True)
     return Storage(lines[0].strip(), keys, comments_in(lines[:end]), table, _size_remarks(keys, table))
 
 
-def _check_cells(path: Path, keys: dict[str, str], rows: Sequence[str], first: int) -> None:
-    """Refuse cells of several numbers with commas between: quaternions of sensors, vectors."""
+def _check_cells(path: Path, keys: dict[str, str], rows: Sequence[str], first: int) -> int:
+    """Most commas in a cell of the first row, of which one is a decimal comma.
+
+    Raises:
+        FormatError: Cells hold several numbers with commas between: quaternions of sensors, vectors.
+    """
     number, row = next(((k, row) for k, row in enumerate(rows, first) if row.strip()), (first, ""))
     commas = max((cell.count(",") for cell in row.split()), default=0)
     stated = keys.get("datatype", "").lower()
@@ -80,6 +86,7 @@ def _check_cells(path: Path, keys: dict[str, str], rows: Sequence[str], first: i
     if commas > 1:
         why = f"its cells hold {commas + 1} numbers each (vectors); expected one number a cell, as joint "
         raise FormatError(path, why + "coordinates have", line=number)
+    return commas
 
 
 def _size_remarks(keys: dict[str, str], table: NumericTable) -> tuple[str, ...]:
