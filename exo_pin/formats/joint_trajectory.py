@@ -139,8 +139,10 @@ def _columns(path: Path, names: object, options: ReadOptions) -> list[int]:
     ours = [options.mapping.get(name, name) for name in names]
     gone = [joint for joint in JOINTS if ours.count(joint) != 1]
     if gone:
-        found = ", ".join(names[:12])[:300]
-        raise FormatError(path, f"joints {', '.join(gone)} must be there once each; the file has {found}")
+        wanted, found = (", ".join(some[:3]) + " ..." * (len(some) > 3) for some in (gone, names))
+        raise FormatError(
+            path, f"joints must be there once each, but not so {wanted}; the file has {found[:120]}"
+        )
     return [ours.index(joint) for joint in JOINTS]
 
 
