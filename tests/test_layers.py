@@ -55,8 +55,22 @@ ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "rich": {"cli"},
     "yourdfpy": {"crosscheck"},
     "joblib": {"study"},
+    "mujoco": {"crosscheck", "simulation", "export"},
+    "opensim": {"crosscheck"},
 }
-HEAVY = {"meshcat", "yourdfpy", "matplotlib", "scipy", "ezc3d", "c3d", "tornado", "PIL", "joblib"}
+HEAVY = {
+    "meshcat",
+    "yourdfpy",
+    "matplotlib",
+    "scipy",
+    "ezc3d",
+    "c3d",
+    "tornado",
+    "PIL",
+    "joblib",
+    "mujoco",
+    "opensim",
+}
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 

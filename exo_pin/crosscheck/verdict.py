@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from exo_pin import ik
+from exo_pin.crosscheck.dynamics_witnesses import DYNAMICS_TOLERANCE, inverse_dynamics
 from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, IK_TOLERANCE, Recovery, recover
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 from exo_pin.demand import RangeDemand, range_demands
@@ -28,12 +29,20 @@ class Check:
         limits: By joint, its angles against its range [rad].
         agreement: Largest difference between the angles of closed form and iterative solver [rad], over
             comparable angles (`Recovery.comparable`) of the first 1000 samples.
+        dynamics: Largest relative difference of inverse dynamics to Pinocchio, by witness; empty where it was
+            not checked.
     """
 
     fk: dict[str, float]
     recovery: Recovery
     limits: dict[str, RangeDemand]
     agreement: float
+    dynamics: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def dynamics_ok(self) -> bool:
+        """Whether all witnesses of inverse dynamics agree with Pinocchio."""
+        return max(self.dynamics.values(), default=0.0) <= DYNAMICS_TOLERANCE
 
     @property
     def fk_ok(self) -> bool:
@@ -65,7 +74,7 @@ class Check:
     @property
     def consistent(self) -> bool:
         """Whether every cross-check succeeds, whatever the joint limits say."""
-        return self.fk_ok and self.ik_ok and self.angles_ok
+        return self.fk_ok and self.ik_ok and self.angles_ok and self.dynamics_ok
 
     @property
     def ok(self) -> bool:
@@ -75,7 +84,8 @@ class Check:
     def facts(self) -> dict[str, Any]:
         """The verdict as plain values for JSON; units as the keys say, limits in degrees."""
         recovery = self.recovery
-        return {
+        dynamics = {"dynamics_max_relative_difference": self.dynamics} if self.dynamics else {}
+        return dynamics | {
             "fk_max_difference": self.fk,
             "ik": {
                 "frames": len(recovery.track.q),
@@ -98,13 +108,14 @@ class Check:
         }
 
 
-def check(robot: Robot, gait: Gait, *, seed: int = 0) -> Check:
+def check(robot: Robot, gait: Gait, *, seed: int = 0, dynamics: bool = False) -> Check:
     """Every cross-check of a gait on a robot.
 
     Args:
         robot: A robot made from a `Body`.
         gait: The walk.
         seed: Of the random configurations that the forward check adds to the gait's own.
+        dynamics: Whether inverse dynamics are checked too, on random states.
     """
     rng = np.random.default_rng(seed)
     random = rng.uniform(robot.lower, robot.upper, (_RANDOM, len(robot.joints)))
@@ -114,6 +125,7 @@ def check(robot: Robot, gait: Gait, *, seed: int = 0) -> Check:
         recovery,
         range_demands(robot, robot.from_gait(gait)),
         _agreement(robot, gait, recovery),
+        inverse_dynamics(robot, seed=seed) if dynamics else {},
     )
 
 

@@ -66,12 +66,12 @@ def recursion(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical")
     q = np.asarray(q, dtype=float)
     poses = {"pelvis": np.broadcast_to(np.eye(4), (*q.shape[:-1], 4, 4))}
     for column, link in enumerate(tree(body, hip_order)):
-        poses[link.name] = poses[link.mother] @ _joint(link, q[..., column])  # Eq. 3
+        poses[link.name] = poses[link.mother] @ joint_pose(link, q[..., column])  # Eq. 3
     del poses["pelvis"]
     return poses | soles(body, poses)
 
 
-def _joint(link: Link, angle: Array) -> Array:
+def joint_pose(link: Link, angle: Array) -> Array:
     """Eq. 1: [e^(a^ q), b; 0, 1] with Rodrigues' I + a^ sin q + a^2 (1 - cos q); a^ is Eq. 2."""
     x, y, z = link.axis
     skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -51,8 +51,12 @@ def test_the_recorded_walk_is_recovered_within_limits(shared):
     assert low == pytest.approx(-3.2, abs=0.1)
 
 
-def test_a_foot_that_was_not_reached_is_not_ok():
+def test_a_foot_that_was_not_reached_is_not_ok_nor_is_a_torque_that_differs():
     verdict = crosscheck.check(ROBOT, normative_gait())
+    assert verdict.consistent
+    wrong = dataclasses.replace(verdict, dynamics={"recursion": 1e-6})
+    assert not wrong.consistent
+    assert wrong.facts()["dynamics_max_relative_difference"] == {"recursion": 1e-6}
     track = verdict.recovery.track
     missed = dataclasses.replace(track, converged=np.arange(len(track.q)) != 3)
     recovery = dataclasses.replace(verdict.recovery, track=missed)

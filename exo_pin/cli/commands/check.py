@@ -15,6 +15,7 @@ _EXAMPLES = """examples:
   exo-pin check                      the normal walk at free speed
   exo-pin check walk.mot --stature 1.82
   exo-pin check fast --json > check.json
+  exo-pin check --dynamics           inverse dynamics four ways too, on 1000 random states
   exo-pin check --device lokomat     all ways of forward kinematics on another device
 
 exit code 0: everything agrees and the device fits, perhaps with a concession (knee held at its stop, a slower
@@ -29,6 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_hip_order(parser)
     device_options.add(
         parser, "name or device file (default: exo12); another one is checked on what it can do of the gait"
+    )
+    parser.add_argument(
+        "--dynamics",
+        action="store_true",
+        help="check inverse dynamics too: recursion, MuJoCo, OpenSim (if installed)",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
@@ -47,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
         gait = found.gait
         if device.locked:
             gait = robot.to_gait(robot.from_gait(gait), gait)
-        checked = crosscheck.check(robot, gait)
+        checked = crosscheck.check(robot, gait, dynamics=args.dynamics)
     ok = checked.consistent and found.ok
     if args.json:
         show.as_json(checked.facts() | {"ok": ok} | found.facts())
@@ -59,10 +65,11 @@ def run(args: argparse.Namespace) -> int:
 def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
     from math import degrees
 
-    from exo_pin.crosscheck import FK_TOLERANCE
+    from exo_pin.crosscheck import DYNAMICS_TOLERANCE, FK_TOLERANCE
 
     recovery, track = verdict.recovery, verdict.recovery.track
     titles = {"recursion": "the paper's recursion", "dh": "modified D-H table", "yourdfpy": "yourdfpy"}
+    titles |= {"mujoco": "MuJoCo", "opensim": "OpenSim"}
     rows = [
         [f"{titles[name]} against Pinocchio", f"{difference:.1e}", _mark(difference <= FK_TOLERANCE)]
         for name, difference in verdict.fk.items()
@@ -74,6 +81,14 @@ def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
         ["angles recovered (knee bent > 5 deg)", f"{angle:.1e} deg", _mark(verdict.angles_ok)],
         ["closed form against iteration", f"{agreement:.1e} deg", _mark(verdict.angles_ok)],
         ["frames converged", f"{int(track.converged.sum())} of {len(track.q)}", _mark(verdict.ik_ok)],
+    ]
+    rows += [
+        [
+            f"inverse dynamics: {titles[name]} against Pinocchio, relative",
+            f"{difference:.1e}",
+            _mark(difference <= DYNAMICS_TOLERANCE),
+        ]
+        for name, difference in verdict.dynamics.items()
     ]
     show.table(f"Cross-checks: {name}", ["check", "largest difference", ""], rows)
     limit_rows = [
@@ -96,6 +111,7 @@ def _mark(ok: bool) -> str:
 
 def _why(verdict: Check) -> str:
     reasons = [
+        (verdict.dynamics_ok, "inverse dynamics disagree"),
         (verdict.fk_ok, "forward kinematics disagree"),
         (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
         (verdict.angles_ok, "recovered angles differ from the given ones, or the two methods disagree"),
