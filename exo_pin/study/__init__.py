@@ -4,7 +4,8 @@
 """
 
 from exo_pin.study.case import Case, Outcome, solve
-from exo_pin.study.parallel import Study, part, run
+from exo_pin.study.earlier_rows import part
+from exo_pin.study.parallel import Study, run
 from exo_pin.study.plan import STATURE_RANGE, STATURE_STEP, bodies, plan, recordings, statures
 from exo_pin.study.study_table import TABLE_COLUMNS, Row, load, save
 from exo_pin.study.summary import summary

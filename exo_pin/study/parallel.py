@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, zip_longest
@@ -13,10 +14,14 @@ from exo_pin.errors import DescriptionError, FormatError
 from exo_pin.files import write_text
 from exo_pin.study import study_table
 from exo_pin.study.case import Case, Outcome, solve
+from exo_pin.study.earlier_rows import Earlier, earlier, part
 from exo_pin.study.study_table import MOTIONS, Row
 
 Progress = Callable[[Iterable[Outcome], int], Iterable[Outcome]]
 """Wraps the outcomes as they arrive; its second argument is their number."""
+
+_JOBS_PER_CORE = 32
+"""More workers than that only cost memory: each takes some 200 MB."""
 
 _AT_ONCE = 32
 """Cases between two writes, for a back end that cannot return results one by one."""
@@ -31,12 +36,14 @@ class Study:
         failures: By name of the recording (or speed): why it has no rows.
         computed: Rows of this run.
         kept: Rows of earlier runs.
+        remarks: Which rows of earlier runs were not used, a plain sentence each.
     """
 
     rows: tuple[Row, ...]
     failures: dict[str, str]
     computed: int
     kept: int
+    remarks: tuple[str, ...] = ()
 
     @property
     def walks(self) -> int:
@@ -60,23 +67,25 @@ def run(
     """Run a study, or continue it.
 
     Finished cases are appended to `PATH.part` at once; when all are done the table is written to `path`, in
-    the order of the plan, and the part is removed. Rows in either file are not computed again.
+    the order of the plan, and the part is removed. Rows in either file are not computed again, unless they
+    were edited, or come from another exo_pin, device or recording than those of the plan.
 
     Args:
         cases: The plan.
         path: The table (.csv); None: write nothing.
-        jobs: Workers, as joblib counts them (-1: one per core). None: one, or what
-            `joblib.parallel_config` says, which also names the back end.
+        jobs: Workers; -1: one per core. None: one, or what `joblib.parallel_config` says, which also names
+            the back end.
         restart: Discard the rows of an earlier study of this name.
         progress: Wraps the outcomes, e.g. in a progress bar.
 
     Raises:
-        DescriptionError: The table holds rows of another plan or version.
+        DescriptionError: The table holds rows of another plan, or there cannot be so many workers.
         FormatError: The file is not the table of a study, or cannot be written.
     """
+    _check_jobs(jobs)
     cases, failed = _readable(cases)
-    wanted = {mark for case in cases for mark in case.fingerprints}
-    done = {} if path is None else _kept(Path(path), wanted, restart)
+    before = Earlier({}) if path is None else earlier(Path(path), cases, restart=restart)
+    done = dict(before.rows)
     kept, failures = len(done) * len(MOTIONS), {}
     todo = [rest for case in cases if (rest := case.without(done)).parts]
     with _one_thread(), _appending(path, done) as append:
@@ -92,12 +101,18 @@ def run(
         if rows:
             study_table.save(rows, path)
         part(path).unlink(missing_ok=True)
-    return Study(rows, dict(sorted(failures.items())), len(rows) - kept, kept)
+    return Study(rows, dict(sorted(failures.items())), len(rows) - kept, kept, before.remarks)
 
 
-def part(path: str | Path) -> Path:
-    """The file of the rows of an unfinished study."""
-    return Path(f"{path}.part")
+def _check_jobs(jobs: int | None) -> None:
+    """Raise `DescriptionError` for a number of workers that there cannot be."""
+    most = _JOBS_PER_CORE * (os.cpu_count() or 1)
+    if jobs is None or (isinstance(jobs, int) and (jobs == -1 or 1 <= jobs <= most)):
+        return
+    raise DescriptionError(
+        f"jobs is {str(jobs)[:40]}; a number of processes from 1 to {most}, or -1 for one per core, "
+        "is accepted"
+    )
 
 
 def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
@@ -111,28 +126,6 @@ def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
         else:
             readable.append(case)
     return readable, failed
-
-
-def _kept(path: Path, wanted: set[str], restart: bool) -> dict[str, dict[str, Row]]:
-    """Rows of earlier runs, by fingerprint and motion; only where both motions are there."""
-    rows = [
-        row
-        for file in (path, part(path))
-        if file.exists()
-        for row in study_table.load(file, unfinished=file != path)
-    ]
-    if restart:
-        return {}
-    found: dict[str, dict[str, Row]] = {}
-    for row in rows:
-        if row.inputs not in wanted:
-            raise DescriptionError(
-                f"{path} holds another study, or one of another exo_pin ({row.version}: {row.device}, "
-                f"{row.gait}, {row.stature_m:g} m, pelvis {row.pelvis}, passive {row.passive}); to continue "
-                "it repeat its options, else choose another file, or discard its rows (--restart)"
-            )
-        found.setdefault(row.inputs, {})[row.motion] = row
-    return {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
 
 
 @contextlib.contextmanager

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import hashlib
 import io
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_type_hints
@@ -117,15 +118,20 @@ class Row:
         return dict(zip(PHASES, values, strict=True))
 
 
-TABLE_COLUMNS = tuple(field.name for field in dataclasses.fields(Row))
-"""Names of the columns, in order."""
+_FIELDS = tuple(field.name for field in dataclasses.fields(Row))
+
+TABLE_COLUMNS = (*_FIELDS, "checksum")
+"""Names of the columns, in order; the last one is of the other cells, and shows that none was edited."""
+
+_DIGITS = 16
+"""Hexadecimal digits of a checksum (SHA-256)."""
 
 _READERS: Mapping[type, Callable[[str], Any]] = {
     int: int,
     float: lambda cell: float(cell) if cell else math.nan,
 }
 _TYPES = get_type_hints(Row)
-_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in TABLE_COLUMNS)
+_COLUMN_READERS = tuple(_READERS.get(_TYPES[name], str) for name in _FIELDS)
 
 
 def phase_column(phase: str) -> str:
@@ -139,7 +145,9 @@ def text(rows: Iterable[Row], *, heading: bool = True) -> str:
     writer = csv.writer(file, lineterminator="\n")
     if heading:
         writer.writerow(TABLE_COLUMNS)
-    writer.writerows(map(_cell, dataclasses.astuple(row)) for row in rows)
+    for row in rows:
+        cells = [_cell(value) for value in dataclasses.astuple(row)]
+        writer.writerow([*cells, _checksum(cells)])
     return file.getvalue()
 
 
@@ -152,42 +160,72 @@ def save(rows: Iterable[Row], path: str | Path) -> None:
     write_text(path, text(rows))
 
 
-def load(path: str | Path, *, unfinished: bool = False) -> list[Row]:
+def load(path: str | Path) -> list[Row]:
     """Read rows that `save` has written.
 
-    Args:
-        path: The file.
-        unfinished: The last line may be cut short, as a killed study leaves it; it is then left out.
-
     Raises:
-        FormatError: The file cannot be read, or is no table of a study.
+        FormatError: The file cannot be read, is no table of a study of this version, or a row was edited.
     """
-    content = read_text(path)
-    if unfinished:
-        content = content[: content.rfind("\n") + 1]
-    lines = _lines(path, content)
-    if next(lines, (1, []))[1] != list(TABLE_COLUMNS) and not (unfinished and not content):
-        raise FormatError(path, "not the table of a study of this version (its columns differ)", line=1)
-    rows = []
-    for number, line in lines:
-        try:
-            values = [read(cell) for read, cell in zip(_COLUMN_READERS, line, strict=True)]
-        except ValueError:
-            why = f"not a row of a study: {len(TABLE_COLUMNS)} cells are expected, numbers and texts"
-            raise FormatError(path, why, line=number) from None
-        rows.append(Row(**dict(zip(TABLE_COLUMNS, values, strict=True))))
+    rows, unusable = rows_and_unusable_lines(path, read_text(path))
+    if unusable:
+        why = f"not a row of a study as it was written: {len(TABLE_COLUMNS)} cells, the last their checksum"
+        raise FormatError(path, why, line=unusable[0])
     return rows
 
 
-def _lines(path: str | Path, content: str) -> Iterator[tuple[int, list[str]]]:
-    """The cells of each line with its number."""
-    lines = csv.reader(io.StringIO(content))
+def rows_and_unusable_lines(path: str | Path, content: str) -> tuple[list[Row], list[int]]:
+    """The rows of a table, and the numbers of its lines that are none: edited or damaged.
+
+    Args:
+        path: The file, for messages.
+        content: Its text; empty is a table without rows.
+
+    Raises:
+        FormatError: It is no table of a study, or one of another version.
+    """
+    heading, *lines = content.split("\n")
+    if content and _cells(heading) != list(TABLE_COLUMNS):
+        check_heading(path, content)
+        why = (
+            "the table of a study of another version (its columns differ); choose another file, or --restart"
+        )
+        raise FormatError(path, why, line=1)
+    found = {k: _row(line) for k, line in enumerate(lines, 2) if line.strip()}
+    return [row for row in found.values() if row], [k for k, row in found.items() if not row]
+
+
+def check_heading(path: str | Path, content: str) -> None:
+    """Raise `FormatError` for a text that is no table of a study of any version."""
+    if content and not set(_cells(content.partition("\n")[0]) or []) >= _ALWAYS:
+        raise FormatError(path, "not the table of a study (its columns differ)", line=1)
+
+
+_ALWAYS = {"gait", "device", "motion", "sole_rms_mm", "version", "inputs"}
+"""Columns of every table of a study, whatever its version."""
+
+
+def _row(line: str) -> Row | None:
+    """The row of a line (each row is one), or None where its checksum is wrong."""
+    cells = _cells(line)
+    if cells is None or len(cells) != len(TABLE_COLUMNS) or _checksum(cells[:-1]) != cells[-1]:
+        return None
     try:
-        for line in lines:
-            yield lines.line_num, list(map(unmarked, line))
+        values = [read(unmarked(cell)) for read, cell in zip(_COLUMN_READERS, cells[:-1], strict=True)]
+    except ValueError:
+        return None
+    return Row(**dict(zip(_FIELDS, values, strict=True)))
+
+
+def _cells(line: str) -> list[str] | None:
+    """The cells of a line; None where one is too long."""
+    try:
+        return next(csv.reader([line]), [])
     except csv.Error:
-        why = f"a cell has more than {csv.field_size_limit()} characters, or a quote has no end"
-        raise FormatError(path, why, line=lines.line_num) from None
+        return None
+
+
+def _checksum(cells: Iterable[str]) -> str:
+    return hashlib.sha256("\n".join(cells).encode()).hexdigest()[:_DIGITS]
 
 
 def _cell(value: str | int | float) -> str:

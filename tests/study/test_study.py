@@ -3,10 +3,14 @@
 import dataclasses
 import json
 import math
+import re
+from functools import cache
 
 import joblib
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from threadpoolctl import threadpool_limits
 
 from exo_pin import study
@@ -18,7 +22,9 @@ from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import plausibility
+from exo_pin.study.earlier_rows import earlier
 from exo_pin.study.parallel import _in_turns
+from tests.damaged_files import FILES, damaged
 
 DEVICES = ("exo12", "hk4")
 RECORDED = (Conditions("recorded"),)
@@ -26,6 +32,9 @@ RECORDED = (Conditions("recorded"),)
 
 def plan(speeds=("slow", "free"), of=(1.6,), devices=DEVICES, conditions=RECORDED):
     return study.plan(speeds, of, devices, conditions=conditions)
+
+
+plan_once = cache(plan)
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +160,6 @@ def test_a_finished_study_may_grow_and_computes_only_what_is_new(tmp_path, done)
         {"of": (1.7,)},
         {"speeds": ("slow",)},
         {"conditions": (Conditions("device"),)},
-        {"devices": ("exo12", Device(name="hk4", joints=both("hip_flexion"), source="another of the name"))},
     ],
 )
 def test_the_table_of_another_study_is_not_touched(tmp_path, done, other):
@@ -162,22 +170,80 @@ def test_the_table_of_another_study_is_not_touched(tmp_path, done, other):
     assert path.read_bytes() == done[1].read_bytes()
 
 
-def test_another_version_s_rows_are_not_mixed_in(tmp_path, done, monkeypatch):
+def test_another_version_s_rows_are_computed_again_and_that_is_said(tmp_path, done, monkeypatch):
     path = tmp_path / "s.csv"
     path.write_bytes(done[1].read_bytes())
     monkeypatch.setattr("exo_pin.version.__version__", "99.0")
-    with pytest.raises(DescriptionError, match=r"another exo_pin \(0\.1\.0"):
-        study.run(plan(), path)
-    fresh = study.run(plan(("slow",), devices=("hk4",)), path, restart=True)
+    again = study.run(plan(), path)
+    assert (again.kept, again.computed) == (0, 8)
+    assert "8 rows of another state of exo_pin (theirs: 0.1.0)" in again.remarks[0]
     assert {row.version for row in study.load(path)} == {"99.0"}
-    assert fresh.kept == 0
+    fresh = study.run(plan(("slow",), devices=("hk4",)), path, restart=True)
+    assert (fresh.kept, fresh.remarks) == (0, ())
 
 
-def test_rows_of_other_code_are_not_mixed_in(tmp_path, done):
+def test_rows_of_other_code_or_of_another_device_of_the_name_are_computed_again(tmp_path, done):
     path = tmp_path / "s.csv"
     path.write_bytes(done[1].read_bytes())
-    with pytest.raises(DescriptionError, match="another exo_pin"):
-        study.run([dataclasses.replace(case, code="another solver") for case in plan()], path)
+    (slow,) = plan(("slow",))
+    other = study.run([dataclasses.replace(slow, code="another solver"), *plan(("free",))], path)
+    assert (other.kept, other.computed) == (4, 4)
+    assert "4 rows of another state" in other.remarks[0]
+    path.write_bytes(done[1].read_bytes())
+    hk4 = Device(name="hk4", joints=both("hip_flexion"), source="another of the name")
+    changed = study.run(plan(devices=("exo12", hk4)), path)
+    assert (changed.kept, changed.computed) == (4, 4)
+    assert study.run(plan(devices=("exo12", hk4)), path).remarks == ()
+
+
+def rounded(text):
+    """As a spreadsheet saves it: fewer digits."""
+    return re.sub(r"(\d\.\d{6})\d+", r"\1", text)
+
+
+def edited(text):
+    head, first, rest = text.split("\n", 2)
+    name, _, cells = first.partition(",")
+    return "\n".join([head, f"{name},edited{cells}", rest])
+
+
+@pytest.mark.parametrize(
+    ("damage", "kept"),
+    [
+        (edited, 6),
+        (rounded, 0),
+        (lambda text: text.replace(",best,", ",copy,", 1), 6),
+        (lambda text: text.replace("slow,", '"slow,', 1), 6),  # a quote without an end costs its own line
+        (lambda text: text + "1" * 200_000, 8),
+        (lambda text: text + "\ufffd\0\n", 8),
+        (lambda text: text.replace("\n", "\r\n"), 8),  # as Windows ends lines: the cells are the same
+        (lambda text: text.replace("\n", "\n\n"), 8),
+    ],
+)
+def test_edited_and_damaged_rows_are_computed_again_to_the_same_bytes(tmp_path, done, damage, kept):
+    path = tmp_path / "s.csv"
+    text = damage(done[1].read_text()) + "\n"
+    (study.part(path) if damage is edited else path).write_bytes(text.encode())
+    again = study.run(plan(), path)
+    assert again.kept == kept
+    assert path.read_bytes() == done[1].read_bytes()
+    assert kept == 8 or "edited or damaged and not used: line 2" in again.remarks[0]
+
+
+@settings(max_examples=FILES, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data())
+def test_a_damaged_table_gives_only_rows_that_were_written_or_one_line(tmp_path, done, data):
+    """EXO_PIN_MUTATIONS=5000 tries as many."""
+    path = tmp_path / "s.csv"
+    pieces = [b",", b'"', b"\n", b"\0", b"\xff", b"9" * 5000, b"1e999", b"nan", b"=1+1", b"\x1b[2J"]
+    path.write_bytes(data.draw(damaged(done[1].read_bytes(), pieces)))
+    try:
+        found = earlier(path, plan_once(), restart=False)
+    except (FormatError, DescriptionError) as error:
+        message = str(error)
+        assert message.isprintable()
+        return
+    assert {row for rows in found.rows.values() for row in rows.values()} <= set(done[0].rows)
 
 
 def test_a_worker_of_another_version_computes_nothing(monkeypatch):
@@ -241,13 +307,13 @@ def test_an_unexpected_error_costs_its_recording_only(walks, monkeypatch):
     assert "good.csv" in {row.gait for row in result.rows}
 
 
-def test_a_changed_recording_is_another_study(walks, tmp_path):
+def test_a_changed_recording_is_studied_again(walks, tmp_path):
     path = tmp_path / "s.csv"
-    cases = study.recordings(walks, devices=("hk4",), conditions=RECORDED)
-    study.run(cases, path)
+    study.run(study.recordings(walks, devices=("hk4",), conditions=RECORDED), path)
     save_gait(normative_gait("slow").resampled(20), walks / "good.csv")
-    with pytest.raises(DescriptionError, match="another study"):
-        study.run(study.recordings(walks, devices=("hk4",), conditions=RECORDED), path)
+    again = study.run(study.recordings(walks, devices=("hk4",), conditions=RECORDED), path)
+    assert (again.kept, again.computed) == (2, 2)
+    assert "a recording are computed again" in again.remarks[0]
 
 
 def test_a_marker_trial_is_studied_on_its_own_body(shared, tmp_path, monkeypatch):
@@ -260,6 +326,20 @@ def test_a_marker_trial_is_studied_on_its_own_body(shared, tmp_path, monkeypatch
     for on, stature in ((None, 1.8), (Body.from_stature(1.6), 1.6)):
         cases = study.recordings(tmp_path, [on], devices=("hk4",), conditions=RECORDED)
         assert {row.stature_m for row in study.run(cases).rows} == {stature}
+
+
+@pytest.mark.parametrize("jobs", [0, -2, -5, 10**9, 1.5, "two", math.nan])
+def test_a_number_of_workers_that_cannot_be_is_refused(jobs):
+    with pytest.raises(DescriptionError, match=r"a number of processes from 1 to \d+, or -1"):
+        study.run(plan_once(), jobs=jobs)
+
+
+@pytest.mark.parametrize("jobs", ["two", "1.5", "9" * 5000, ""])
+def test_the_command_refuses_jobs_that_are_no_number(capsys, jobs):
+    with pytest.raises(SystemExit) as stop:
+        main(["study", "--jobs", jobs])
+    assert stop.value.code == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
 
 
 def test_statures_go_from_low_to_high_in_steps():
@@ -345,6 +425,8 @@ def test_the_command_ends_on_ctrl_c_with_a_line(tmp_path, capsys, monkeypatch):
         ["-o", "s.txt"],
         ["--page", "s.pdf"],
         ["--jobs", "0"],
+        ["--jobs", "-5"],
+        ["--jobs", str(10**9)],
         ["--step", "0"],
         ["--body", "b.toml"],
         ["--recordings", "none"],

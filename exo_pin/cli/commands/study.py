@@ -27,7 +27,8 @@ _EXAMPLES = """examples:
   exo-pin study --recordings walks -o walks.csv        every recording in a folder
 
 The same command continues a study that was interrupted. A finished study may get more devices, speeds,
-statures or recordings: existing rows are not computed again. A recording that cannot be used is reported in a
+statures or recordings: existing rows are not computed again, unless they were edited or made by another
+exo_pin; a note says so. A recording that cannot be used is reported in a
 line and left out; the exit code is then 1. docs/study.md explains the columns, and how the same study runs on
 a cluster."""
 
@@ -101,6 +102,8 @@ def run(args: argparse.Namespace) -> int:
         left = study.part(args.output)
         print(f"stopped; finished rows are in {left}, and the same command continues", file=sys.stderr)
         return stopping.exit_code(stop)
+    for remark in done.remarks:
+        print(f"note: {show.plain(remark)}", file=sys.stderr)
     page = "" if args.no_page or not done.rows else _write_page(args, done)
     seconds = time.perf_counter() - start
     if args.json:
@@ -115,8 +118,9 @@ def _check_names(args: argparse.Namespace) -> None:
         raise DescriptionError(f"{args.output}: the table of a study ends in .csv")
     if args.page is not None and Path(args.page).suffix.lower() not in (".html", ".htm"):
         raise DescriptionError(f"{args.page}: the page of a study ends in .html")
-    if args.jobs == 0:
-        raise DescriptionError("--jobs is 0; a number of processes, or -1 for one per core, is accepted")
+    if args.recordings and Path(args.recordings).resolve() in Path(args.output).resolve().parents:
+        why = "the next run would take the table for a recording; choose another place for it"
+        raise DescriptionError(f"{args.output} is in the folder of the recordings: {why}")
     if args.body and not args.recordings:
         raise DescriptionError("--body is for --recordings; the normal walk is studied on --statures")
     if args.body and args.statures:
@@ -172,6 +176,7 @@ def _to_json(table: str, done: Study, *, cases: int, page: str, seconds: float) 
         "kept": done.kept,
         "cases": cases,
         "left_out": done.failures,
+        "remarks": list(done.remarks),
         "seconds": round(seconds, 3),
     }
 
