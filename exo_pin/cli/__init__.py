@@ -40,6 +40,7 @@ COMMANDS = {
     "study": "all devices under many walks and on many bodies: a table and a page",
     "retarget": "a walk as joint angles of a humanoid",
     "feasible": "whether a device can do a walk with a person",
+    "doctor": "what is installed here, what is missing, and the cure",
     "dh": "the Denavit-Hartenberg table for a body",
     "cache": "what is kept between runs, and its deletion",
 }
@@ -82,6 +83,14 @@ def _answered(words: list[str]) -> int:
     except ExoPinError as error:
         print(f"exo-pin: {shortened(str(error))}", file=sys.stderr)
         return 1 if isinstance(error, (LimitError, ConvergenceError)) else 2
+    except ModuleNotFoundError as error:
+        from exo_pin.cli import missing
+
+        said = missing.sentence(error)
+        if said is None:
+            raise
+        print(f"exo-pin: {said}", file=sys.stderr)
+        return 2
     except BrokenPipeError:  # `exo-pin dh | head -1`: the reader has closed the pipe
         _discard_output()
         return 0

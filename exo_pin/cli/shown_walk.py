@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exo_pin.cli import device_options, options, show, torque_options, walk_output
+from exo_pin.cli import device_options, missing, options, show, torque_options, walk_output
 from exo_pin.cli.answered_walk import AnsweredWalk, answered
 from exo_pin.errors import DescriptionError
 
@@ -101,6 +101,8 @@ def exoskeleton_scene(args: argparse.Namespace, body: Body, walk: AnsweredWalk) 
     """
     from exo_pin import viewer
 
+    if body.wearer:
+        missing.note_without_figure()
     gait, answer, verdict = walk.gait, walk.answer, walk.plausibility
     walk_output.print_plausibility(verdict)
     name = Path(args.gait).name

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -35,7 +37,8 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
             a microradian, are given to yourdfpy.
 
     Returns:
-        `recursion`, `dh` and `yourdfpy`: over every joint's link, locked joints too, and both feet.
+        `recursion`, `dh` and, where it is installed, `yourdfpy`: over every joint's link, locked joints
+        too, and both feet.
 
     Raises:
         DescriptionError: The robot is not an exoskeleton of this package.
@@ -53,8 +56,12 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
     witnesses: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
         "recursion": (q, lambda q: by(dh.recursion, q)),
         "dh": (q, lambda q: by(dh.modified_dh, q)),
-        "yourdfpy": (np.round(few, _GRID), lambda q: _yourdfpy(robot, q)),
     }
+    with contextlib.suppress(ModuleNotFoundError):
+        import yourdfpy  # 0.5 s, needed here only
+
+        scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
+        witnesses["yourdfpy"] = (np.round(few, _GRID), lambda q: _by_scene(robot, scene, q))
     return {name: _difference(robot, q, witness(q)) for name, (q, witness) in witnesses.items()}
 
 
@@ -65,11 +72,8 @@ def _difference(robot: Robot, q: Array, poses_of: dict[str, Array]) -> float:
     return float(max(np.abs(poses_of[name] - ours[:, k]).max() for k, name in enumerate(names)))
 
 
-def _yourdfpy(robot: Robot, q: Array) -> dict[str, Array]:
+def _by_scene(robot: Robot, scene: Any, q: Array) -> dict[str, Array]:
     """Poses by yourdfpy, an independent reader of the same URDF."""
-    import yourdfpy  # 0.5 s, needed here only
-
-    scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
     links = {joint: scene.joint_map[joint].child for joint in (*robot.joints, *JOINTS)}
     links |= {foot: foot for foot in FEET}
     out = {name: np.empty((len(q), 4, 4)) for name in links}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import device_options, options, show
+from exo_pin.cli import device_options, missing, options, show
 
 if TYPE_CHECKING:
     from exo_pin.crosscheck import Check
@@ -54,6 +54,7 @@ def run(args: argparse.Namespace) -> int:
         if device.locked:
             gait = robot.to_gait(robot.from_gait(gait), gait)
         checked = crosscheck.check(robot, gait, dynamics=args.dynamics)
+    missing.note_without("yourdfpy")
     ok = checked.consistent and found.ok
     if args.json:
         show.as_json(checked.facts() | {"ok": ok} | found.facts())

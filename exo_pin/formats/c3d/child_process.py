@@ -21,8 +21,10 @@ _CHANNEL = "FORCE_PLATFORM:CHANNEL"
 
 def limit(megabytes: int, seconds: int) -> None:
     """No more memory and time than this, where the system can promise it."""
-    import resource
-
+    try:
+        import resource
+    except ImportError:  # Windows; the parent's clock bounds the time
+        return
     for what, amount in ((resource.RLIMIT_AS, megabytes << 20), (resource.RLIMIT_CPU, seconds)):
         with contextlib.suppress(ValueError, OSError):
             resource.setrlimit(what, (amount, amount))

@@ -49,12 +49,11 @@ def exoskeleton_scene(
         reference: Curves to draw dashed beside the walk's, e.g. the source's.
         reference_title: What the dashed curves are.
         torques: Joint torques on the walk's clock, for a further tab of plots.
-        wearer: Whether to draw the person, if the robot was made for one.
+        wearer: Whether to draw the person, if the robot was made for one and the figure is installed.
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such support.
         GaitError: The torques belong to another time.
-        ExoPinError: The wearer's figure is not installed.
     """
     options = options or SceneOptions(title="12-DoF exoskeleton gait")
     gait, faced = _facing(gait)

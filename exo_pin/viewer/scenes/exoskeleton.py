@@ -13,7 +13,7 @@ from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
 from exo_pin.ground import PlacedWalk, aligned, alignment_note, place_walk, toe_angles
 from exo_pin.robot import Robot
-from exo_pin.viewer.scenes import joint_plots
+from exo_pin.viewer.scenes import joint_plots, person_figure
 from exo_pin.viewer.scenes.actor import GHOST, Actor, Mount, chain_samples
 from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
 from exo_pin.viewer.scenes.scene import ROOT, Chain, Group, Handle
@@ -57,7 +57,10 @@ def stage_exoskeleton(
         tabs = joint_plots.with_second_walk(tabs, joint_plots.of_gait(robot, second))
         notes.append(alignment_note(gait, options.compare))
     top = _BACKPACK
-    if wearer and robot.body is not None and robot.body.wearer:
+    worn = wearer and robot.body is not None and robot.body.wearer
+    if worn and not person_figure.installed():
+        notes.append(f"{person_figure.MISSING[0].upper()}{person_figure.MISSING[1:]}.")
+    elif worn and robot.body is not None:
         actors.append(wearer_figure(robot.body, tree.links, f"{ROOT}/wearer", gait, walk.base))
         top = robot.body.stature - robot.body.leg_length
     return Staging(

@@ -23,6 +23,14 @@ _CELL = 0.045
 
 _HOME = "human_description/robots/human.urdf"
 
+MISSING = "the wearer is not drawn: the figure comes with example-robot-data (pip install example-robot-data)"
+"""What to say where the figure is not installed."""
+
+
+def installed() -> bool:
+    """Whether the figure can be drawn."""
+    return located(_HOME) is not None
+
 
 def part(name: str, scale: _Triple, offset: _Triple = (0.0, 0.0, 0.0)) -> Solid:
     """A mesh of the figure, scaled and moved.
@@ -69,5 +77,5 @@ def _thinned(name: str) -> tuple[Array, Index]:
 def _folder() -> Path:
     urdf = located(_HOME)
     if urdf is None:
-        raise ExoPinError("the wearer's figure comes with example-robot-data; install it or use wearer=False")
+        raise ExoPinError(MISSING)
     return urdf.parent.parent / "meshes"
