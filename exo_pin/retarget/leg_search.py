@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -28,7 +29,7 @@ _LEG_WORDS = ("leg", "hip", "knee", "thigh", "ankle", "foot")
 
 REMEDY = "name the feet in a record of the robot (a TOML file, see docs/robots.md)"
 
-_ARM_WORDS = ("shoulder", "elbow", "forearm", "wrist", "hand", "finger", "gripper", "arm_")
+_ARM_WORDS = re.compile("shoulder|elbow|wrist|hand|finger|gripper|arm(?![a-z])")
 """Limbs with such words in the names of their joints, and no word of a leg, are arms."""
 
 
@@ -157,11 +158,14 @@ def _lowest(known: Standing, up: Array) -> list[list[int]]:
     data = model.createData()
     pin.forwardKinematics(model, data, known.stand)
     heights = np.array([data.oMi[j].translation @ up for j in range(1, model.njoints)])
-    low = float(heights.min()) + _SAME_LEVEL * float(np.ptp(heights))
+    ends = sorted(set(range(1, model.njoints)) - set(model.parents), key=lambda j: heights[j - 1])
+    every = [support(model, j) for j in ends]
+    no_arms = [path for path in every if not arm_joints(model.names[j] for j in path)]
+    paths = no_arms if len(no_arms) > 1 else every  # long arms may hang lower than the feet
+    low = heights[paths[0][-1] - 1] + _SAME_LEVEL * float(np.ptp(heights))
     found: list[list[int]] = []
-    for j in sorted(set(range(1, model.njoints)) - set(model.parents), key=lambda j: heights[j - 1]):
-        path = support(model, j)
-        if heights[j - 1] <= low and all(_apart(known, path, other) for other in found):
+    for path in paths:
+        if heights[path[-1] - 1] <= low and all(_apart(known, path, other) for other in found):
             found.append(path)
     return found
 
@@ -197,7 +201,7 @@ def arm_joints(joints: Iterable[str]) -> tuple[str, ...]:
     names = tuple(joints)
     if any(word in name.lower() for name in names for word in _LEG_WORDS):
         return ()
-    return tuple(name for name in names if any(word in name.lower() for word in _ARM_WORDS))
+    return tuple(name for name in names if _ARM_WORDS.search(name.lower()))
 
 
 def _difference(one: str, other: str) -> tuple[str, str]:

@@ -12,7 +12,7 @@ from exo_pin.cli import main
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import normative_gait
 from exo_pin.kinematics import poses
-from exo_pin.retarget import retarget
+from exo_pin.retarget import Target, as_biped, retarget
 from exo_pin.robot import load_urdf
 
 GAIT = normative_gait().resampled(100)
@@ -198,6 +198,22 @@ def _check_knees_are_in_front(walk):
         thigh, line = (points @ walk.biped.rotation for points in (knee - hip, ankle - hip))
         in_front = (thigh - line * (np.sum(thigh * line, axis=1) / np.sum(line**2, axis=1))[:, None])[:, 0]
         assert in_front.min() > 0
+
+
+@pytest.mark.parametrize("name", ["{side}_arm{k}", "{side}_shoulder_{k}", "arm_{k}_{side}"])
+def test_arms_that_hang_lower_than_the_feet_are_not_taken_for_legs(name):
+    arms, axes = [], list(AXES.values())
+    for side, y in (("left", 0.3), ("right", -0.3)):
+        parent = "trunk"
+        for k in range(7):
+            joint, shift = name.format(side=side, k=k), (0, 0 if k else y, -0.35 if k else 0.4)
+            places = parent, f"{joint}_l", shift
+            arms.append(Arrangement()._joint(joint, *places, axes[k % 3], (-2, 2), "revolute"))
+            parent = f"{joint}_l"
+    plain = ARRANGEMENTS["plain"].urdf(1.0)
+    robot = load_urdf(plain.replace("</robot>", "".join(arms) + "</robot>"))
+    biped = as_biped(Target(robot.name, ""), robot)
+    assert [leg.foot for leg in biped.legs] == ["left_foot", "right_foot"]
 
 
 @pytest.mark.parametrize("name", ["waist first", "slides first", "one name for link and joint", "toes"])
