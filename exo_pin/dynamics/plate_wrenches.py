@@ -10,7 +10,8 @@ import numpy as np
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics.ground_forces import GroundForces, from_wrenches
-from exo_pin.dynamics.plate_checks import check_plates, check_points, check_steps
+from exo_pin.dynamics.plate_checks import check_both_feet, check_plates, check_points, check_steps
+from exo_pin.dynamics.plate_clock import check_clock
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import ForcePlate
@@ -56,6 +57,7 @@ def plate_forces(robot: Robot, gait: Gait, forces: Sequence[ForcePlate]) -> Plat
     steps = plate_steps(robot, gait, forces)
     corners = poses(robot, robot.from_gait(gait), CORNERS)[..., :3, 3]
     check_steps(gait, steps, lowest_corners(corners))
+    check_clock(robot, gait, forces)
     wrench, height = np.zeros((len(gait), 2, 6)), np.zeros((len(gait), 2))
     for step in steps:
         if step.side is not None:
@@ -63,7 +65,9 @@ def plate_forces(robot: Robot, gait: Gait, forces: Sequence[ForcePlate]) -> Plat
             own, level = _at(step, gait.time)
             wrench[:, foot] += own
             height[:, foot] = np.where(np.isfinite(level), level, height[:, foot])
-    beside = _standing_feet(robot, gait, forces, corners) & ~_loaded(steps, gait.time)
+    stands = _standing_feet(robot, gait, forces, corners)
+    check_both_feet(gait, steps, stands)
+    beside = stands & ~_loaded(steps, gait.time)
     shared = _unassigned(steps, gait.time)
     outside = ~np.all([(gait.time >= p.time[0]) & (gait.time <= p.time[-1]) for p in forces], axis=0)
     known = np.asarray(~(beside.any(axis=1) | shared | outside))
