@@ -14,14 +14,14 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
-from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
-from exo_pin.anatomy.hip_cardan_angles import reorder
+from exo_pin.anatomy import JOINTS, Body
 from exo_pin.anatomy.names import Base, HipOrder, Masses
 from exo_pin.arrays import Array, Mask, as_floats
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses, unit_quaternion
+from exo_pin.robot.gait_columns import gait_columns, in_hip_order
 from exo_pin.robot.leg_axes import LegAxes, read_leg
 from exo_pin.robot.subtree import (
     Subtree,
@@ -30,8 +30,6 @@ from exo_pin.robot.subtree import (
     read_subtree,
     supporting_joints,
 )
-
-_HIPS = HIP_ORDERS["clinical"]
 
 LIMIT_TOLERANCE = 1e-9
 """A value this little beyond its limit is on it [rad, rad/s, rad/s^2, m]: the excess is rounding."""
@@ -236,8 +234,8 @@ class Robot:
         q = np.tile(self.neutral, (len(gait.q), 1))
         if self.base == "floating" and gait.base is not None:
             q[:, :FREE] = base_coordinates(gait.base)
-        mine, columns = self._columns
-        q[:, columns] = _in_order(gait.q, source="clinical", target=self.hip_order)[:, mine]
+        mine, columns = gait_columns(self.model, self.joints)
+        q[:, columns] = in_hip_order(gait.q, source="clinical", target=self.hip_order)[:, mine]
         return q
 
     def to_gait(self, q: npt.ArrayLike, like: Gait) -> Gait:
@@ -255,10 +253,10 @@ class Robot:
             base = base_poses(unit_quaternion(q))
         elif any(slide in self.joints for slide in SLIDES):
             base = (self.placement if base is None else base) @ self.slid(q)
-        mine, columns = self._columns
+        mine, columns = gait_columns(self.model, self.joints)
         angles = np.zeros((len(q), len(JOINTS)))
         angles[:, mine] = q[:, columns]
-        clinical = _in_order(angles, source=self.hip_order, target="clinical")
+        clinical = in_hip_order(angles, source=self.hip_order, target="clinical")
         return dataclasses.replace(like, q=clinical, base=base)
 
     def slid(self, q: npt.ArrayLike) -> Array:
@@ -290,21 +288,3 @@ class Robot:
     @cached_property
     def _groups(self) -> dict[tuple[tuple[str, ...], bool], tuple[Subtree, ...]]:
         return {}
-
-    @property
-    def _columns(self) -> tuple[list[int], list[int]]:
-        """The gait's columns that this robot has, and where they stand in q."""
-        for name in set(JOINTS) - set(self.joints):
-            if not self.model.existFrame(name, pin.FrameType.FIXED_JOINT):
-                raise UnknownNameError("joint", name, self.joints)
-        mine = [k for k, name in enumerate(JOINTS) if name in self.joints]
-        return mine, [self.column(JOINTS[k]) for k in mine]
-
-
-def _in_order(q: Array, *, source: HipOrder, target: HipOrder) -> Array:
-    """Angles (n, 12) in the order of `JOINTS` with the hips converted from one order of axes to another."""
-    q = q.copy()
-    for side in SIDES:
-        hips = [JOINTS.index(f"{side}_{movement}") for movement in _HIPS]
-        q[:, hips] = reorder(q[:, hips], side, source=source, target=target)
-    return q

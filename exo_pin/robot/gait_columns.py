@@ -1,0 +1,43 @@
+"""A gait's angles in a robot's configuration: which columns, and the order of the hip's axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pinocchio as pin
+
+from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES
+from exo_pin.anatomy.hip_cardan_angles import reorder
+from exo_pin.anatomy.names import HipOrder
+from exo_pin.arrays import Array
+from exo_pin.errors import UnknownNameError
+
+_HIPS = HIP_ORDERS["clinical"]
+
+
+def gait_columns(model: Any, joints: Sequence[str]) -> tuple[list[int], list[int]]:
+    """The columns of `Gait.q` that a robot has, and where they stand in its q.
+
+    Args:
+        model: Pinocchio's model.
+        joints: Names of the driven joints, the last ones of q.
+
+    Raises:
+        UnknownNameError: The robot has one of the gait's joints neither moving nor locked.
+    """
+    for name in set(JOINTS) - set(joints):
+        if not model.existFrame(name, pin.FrameType.FIXED_JOINT):
+            raise UnknownNameError("joint", name, tuple(joints))
+    mine = [k for k, name in enumerate(JOINTS) if name in joints]
+    first = model.nq - len(joints)
+    return mine, [first + joints.index(JOINTS[k]) for k in mine]
+
+
+def in_hip_order(q: Array, *, source: HipOrder, target: HipOrder) -> Array:
+    """Angles (n, 12) in the order of `JOINTS` with the hips converted from one order of axes to another."""
+    q = q.copy()
+    for side in SIDES:
+        hips = [JOINTS.index(f"{side}_{movement}") for movement in _HIPS]
+        q[:, hips] = reorder(q[:, hips], side, source=source, target=target)
+    return q
