@@ -19,7 +19,7 @@ _LARGEST_ANGLE = np.pi
 FURTHEST = 1e4
 """From the origin of a laboratory [m]; a position beyond is a damaged number."""
 
-_LARGEST_TIME = 1e9
+LARGEST_TIME = 1e9
 """Thirty years [s]: a number beyond is no time of a walk."""
 
 _UNIFORM = 1e-6
@@ -51,7 +51,7 @@ def check_time(time: Array, periodic: bool) -> None:
     """Raises `GaitError` unless `time` is `(n,)`, n >= 2, finite and increasing; even from 0 if periodic."""
     if time.ndim != 1 or len(time) < 2:
         raise GaitError(f"time has shape {time.shape}, expected (n,) with at least 2 samples")
-    bad = np.flatnonzero(~(np.abs(time) <= _LARGEST_TIME))
+    bad = np.flatnonzero(~(np.abs(time) <= LARGEST_TIME))
     if bad.size:
         raise GaitError(f"time of frame {bad[0]} is {time[bad[0]]:g}, expected seconds")
     late = np.flatnonzero(np.diff(time) < SAME_TIME)  # differences of such samples would be rounding

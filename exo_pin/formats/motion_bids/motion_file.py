@@ -25,6 +25,8 @@ from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.units import metres_per, radians_per
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import Markers
+from exo_pin.gait.validation import LARGEST_TIME
+from exo_pin.safe import plain_numbers
 
 _REQUIRED = ("name", "component", "type", "tracked_point", "units")
 """Columns of `*_channels.tsv` that BIDS demands."""
@@ -89,7 +91,7 @@ class MotionBidsFile(TrialFile):
             q[:, JOINTS.index(name)] = column.sign * scale * values
         own = self._own()
         events, remarks = self._events(own)
-        time = self._time() + float(own.get("start", 0.0))
+        time = self._time() + self._start(own)
         metadata = Metadata(events, own.get("periodic") is True, own.get("source"), tuple(remarks))
         return to_gait(self.path, time, q, self._base(), metadata)
 
@@ -111,6 +113,13 @@ class MotionBidsFile(TrialFile):
         kinds = {"start": (int, float), "periodic": (bool,), "source": (str,), "event_sources": (list,)}
         own = {key: found[key] for key in kinds if key in found} if isinstance(found, dict) else {}
         return {key: value for key, value in own.items() if isinstance(value, kinds[key])}
+
+    def _start(self, own: Mapping[str, Any]) -> float:
+        """When the recording of this package begins [s]; raises `FormatError`."""
+        start = own.get("start", 0.0)
+        if not abs(start) <= LARGEST_TIME:  # JSON's numbers have no end: 1e999, an integer of 400 digits
+            raise FormatError(beside(self.path, "_motion.json"), "its start is no time in seconds")
+        return float(start)
 
     def _time(self) -> Array:
         """`(n,)` seconds from the first sample on: the latencies, else by the rate."""
@@ -151,14 +160,15 @@ class MotionBidsFile(TrialFile):
 
     def _events(self, own: Mapping[str, Any]) -> tuple[tuple[Event, ...], list[str]]:
         """The foot contacts among the events, and how many are none."""
-        start, sources = float(own.get("start", 0.0)), own.get("event_sources", [])
+        start, sources = self._start(own), own.get("event_sources", [])
         if len(sources) != len(self.events) or not all(isinstance(source, str) for source in sources):
             sources = ["BIDS event"] * len(self.events)
         found, unknown = list[Event](), 0
         for (onset, word), source in zip(self.events, sources, strict=True):
             kind, side = kind_and_side(word.replace("_", " "), "")
             if kind and side:
-                found.append(Event(onset + start, kind, side, source))
+                with naming_file(self.path):
+                    found.append(Event(onset + start, kind, side, source))
             else:
                 unknown += 1
         return tuple(found), [f"{unknown} events of its _events.tsv are no foot contacts: not used"] * bool(
@@ -216,7 +226,8 @@ def _events(motion: Path) -> tuple[tuple[float, str], ...]:
     out = list[tuple[float, str]]()
     for number, row in enumerate(rows[:MOST_EVENTS], 2):
         try:
-            out.append((float(row[places[0]]), row[places[1]]))
+            (onset,) = plain_numbers.finite(row[places[0]], 1)
+            out.append((onset, row[places[1]]))
         except (ValueError, IndexError):
             raise FormatError(path, "expected an onset in seconds and a trial_type", line=number) from None
     return tuple(out)
