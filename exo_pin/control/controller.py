@@ -1,0 +1,60 @@
+"""What a controller is: a function from measured joints and the walk wanted to torques."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+from exo_pin.arrays import Array
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+
+
+@dataclass(slots=True, eq=False)
+class Reference:
+    """The walk that is wanted, at one moment.
+
+    Arrays are `(12,)` in the order of `JOINTS`, about the robot's own hip axes.
+
+    Attributes:
+        phase: Of the gait cycle from 0 to 1; of a recording, the part that is over.
+        q: Joint angles [rad].
+        dq: Joint velocities [rad/s].
+        ddq: Joint accelerations [rad/s^2].
+        feed_forward: Torques that the walk requires by inverse dynamics, with ground and support [N m].
+        missing: What the person does not give of them: all without a person [N m].
+    """
+
+    phase: float
+    q: Array
+    dq: Array
+    ddq: Array
+    feed_forward: Array
+    missing: Array
+
+
+@runtime_checkable
+class Controller(Protocol):
+    """Torques of the motors.
+
+    A controller may have `reset(robot, gait)` too, which is called once before a run: with the robot that it
+    believes to control (the model, not the simulated one with its errors) and the walk.
+    """
+
+    def __call__(self, time: float, q: Array, dq: Array, reference: Reference) -> Array:
+        """Torques (12,) [N m] in the order of `JOINTS`; those of joints without a motor are ignored.
+
+        Args:
+            time: Since the start of the run [s].
+            q: Measured joint angles (12,) [rad]; zero where the robot has no such joint.
+            dq: Measured joint velocities (12,) [rad/s].
+            reference: The walk wanted now.
+        """
+        ...
+
+
+def reset(controller: Controller, robot: Robot, gait: Gait) -> None:
+    """Call a controller's `reset`, if it has one."""
+    begin = getattr(controller, "reset", None)
+    if begin is not None:
+        begin(robot, gait)

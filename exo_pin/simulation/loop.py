@@ -1,0 +1,251 @@
+"""The loop of a simulation: measure, control, support, step; every step is written down."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from exo_pin.anatomy import CORNERS, JOINTS
+from exo_pin.arrays import Array
+from exo_pin.control import Controller, Patient, Reference, raised_where
+from exo_pin.errors import DescriptionError, ExoPinError
+from exo_pin.robot import Robot
+from exo_pin.simulation.pelvis_support import PelvisSupport
+from exo_pin.simulation.plant import Joints
+from exo_pin.simulation.recording import Recording
+from exo_pin.simulation.reference_motion import ReferenceMotion
+from exo_pin.simulation.time_limit import time_limit
+
+_FREE = 6
+_FASTEST = 50.0
+"""A joint that is faster diverges [rad/s]."""
+
+
+class Loop:
+    """One run, step by step; `run` does it all.
+
+    Args:
+        model: MuJoCo's model.
+        robot: The floating robot that it was made from.
+        walk: The walk to follow.
+        controller: Gives the motors' torques.
+        joints: Motors, friction and encoders.
+        patient: The person; None gives no torque.
+        support: Holds the pelvis.
+        unloading: Constant upward force at mid-hip [N].
+        every: Steps from one call of the controller to the next.
+        delay: Steps from measurement to torque.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        robot: Robot,
+        walk: ReferenceMotion,
+        controller: Controller,
+        joints: Joints,
+        patient: Patient | None,
+        support: PelvisSupport,
+        unloading: float,
+        *,
+        every: int = 1,
+        delay: int = 0,
+    ) -> None:
+        import mujoco
+
+        self._model, self._walk, self._controller = model, walk, controller
+        self._joints, self._patient, self._unloading = joints, patient, unloading
+        self._every, self._delay = every, delay
+        self._data = mujoco.MjData(model)
+        self._stiffness, self._damping = (np.array(x) for x in (support.stiffness, support.damping))
+        names = [name for name in robot.joints if name in JOINTS]
+        self._ours = np.array([JOINTS.index(name) for name in names])
+        self._record = Recording(len(walk.time), model.nq, model.nv, self._ours)
+        self._qpos = np.array([model.joint(name).qposadr[0] for name in names])
+        self._dofs = np.array([model.joint(name).dofadr[0] for name in names])
+        bad = (
+            mujoco.mjtWarning.mjWARN_BADQPOS,
+            mujoco.mjtWarning.mjWARN_BADQVEL,
+            mujoco.mjtWarning.mjWARN_BADQACC,
+        )
+        self._warnings = [int(kind) for kind in bad]
+        self._corners = {model.geom(name).id: k for k, name in enumerate(CORNERS)}
+        self._given = np.zeros(walk.torque.shape) if patient is None else patient.given(walk.torque)
+        self._missing = walk.torque - self._given
+        self._nerves = 0 if patient is None else round(patient.delay / float(model.opt.timestep))
+        self._wanted = np.zeros(len(JOINTS))
+        self._start()
+
+    def run(self, after: Callable[[int], None] = lambda step: None) -> tuple[Recording, str]:
+        """Run to the end, or to the last good step.
+
+        Args:
+            after: Called after each step with its number.
+
+        Returns:
+            What happened, and why it ended early (empty: it did not).
+
+        Raises:
+            DescriptionError: The controller's answer cannot be used.
+        """
+        record = self._record
+        with time_limit() as progress:
+            for k in range(len(self._walk.time)):
+                why = self._step(k)
+                if why:
+                    record.cut(k)
+                    return record, why
+                progress.steps = k + 1
+                after(k)
+        return record, ""
+
+    def _step(self, k: int) -> str:
+        """One step; why the run cannot go on after it, empty if it can."""
+        import mujoco
+
+        record, data = self._record, self._data
+        record.qpos[k], record.qvel[k] = data.qpos, data.qvel
+        q, dq = self._measure()
+        if k % self._every == 0:
+            self._wanted = self._asked(k, self._joints.measured(q), dq)
+        record.wanted[k] = self._wanted
+        self._apply(k, q, dq, record.wanted[max(k - self._delay, 0)])
+        mujoco.mj_step(self._model, data)
+        self._note(k)
+        return self._bad()
+
+    def _start(self) -> None:
+        """Put the robot where the walk begins, with the walk's velocities."""
+        import mujoco
+
+        walk, data = self._walk, self._data
+        quaternion = np.zeros(4)
+        mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(walk.base[0, :3, :3]).ravel())
+        data.qpos[:3], data.qpos[3:7] = walk.base[0, :3, 3], quaternion
+        data.qvel[:3] = walk.base_velocity[0, :3]
+        data.qvel[3:_FREE] = walk.base[0, :3, :3].T @ walk.base_velocity[0, 3:]
+        data.qpos[self._qpos], data.qvel[self._dofs] = walk.q[0][self._ours], walk.dq[0][self._ours]
+
+    def _measure(self) -> tuple[Array, Array]:
+        q, dq = np.zeros(len(JOINTS)), np.zeros(len(JOINTS))
+        q[self._ours], dq[self._ours] = self._data.qpos[self._qpos], self._data.qvel[self._dofs]
+        return q, dq
+
+    def _asked(self, k: int, q: Array, dq: Array) -> Array:
+        """The controller's answer, checked."""
+        walk = self._walk
+        now = Reference(
+            float(walk.phase[k]), walk.q[k], walk.dq[k], walk.ddq[k], walk.torque[k], self._missing[k]
+        )
+        try:
+            tau = self._controller(float(walk.time[k]), q, dq, now)
+        except ExoPinError:
+            raise
+        except Exception as error:  # whatever a user's code raises
+            why = raised_where(error)
+            raise DescriptionError(f"the controller fails at {walk.time[k]:.3f} s: {why}") from error
+        try:
+            answer = np.array(tau, dtype=float)
+        except (TypeError, ValueError):
+            answer = np.zeros(0)
+        if answer.shape != (len(JOINTS),) or not math.isfinite(answer.sum()):
+            raise DescriptionError(
+                f"the controller's answer at {walk.time[k]:.3f} s is {tau!r:.80}; "
+                f"{len(JOINTS)} finite torques [N m] are accepted"
+            )
+        return answer
+
+    def _apply(self, k: int, q: Array, dq: Array, wanted: Array) -> None:
+        """Torques of motors, person and friction, and the support, as generalised forces."""
+        record, force = self._record, self._data.qfrc_applied
+        motor = self._joints.motor(wanted, dq)
+        record.motor[k] = motor
+        total = motor
+        if self._patient is not None:
+            record.person[k] = self._person(k, q, dq)
+            total = total + record.person[k]
+        friction = self._joints.friction(dq)
+        if friction is not None:
+            record.friction[k] = friction
+            total = total + friction
+        force[self._dofs] = total[self._ours]
+        R, wrench = self._wrench(k)
+        record.support[k] = wrench
+        force[:3], force[3:_FREE] = wrench[:3], R.T @ wrench[3:]
+
+    def _person(self, k: int, q: Array, dq: Array) -> Array:
+        """Torques (12,) of the person: what nerves give is late, tissues are not."""
+        assert self._patient is not None
+        walk, past = self._walk, max(k - self._nerves, 0)
+        if self._nerves:
+            qpos, qvel = self._record.qpos[past], self._record.qvel[past]
+            late, rate = np.zeros(len(JOINTS)), np.zeros(len(JOINTS))
+            late[self._ours], rate[self._ours] = qpos[self._qpos], qvel[self._dofs]
+        else:
+            late, rate = q, dq
+        own = self._patient.own(late, rate, walk.q[past], walk.dq[past])
+        torque: Array = self._given[past] + own + self._patient.tissues(q)
+        return torque
+
+    def _wrench(self, k: int) -> tuple[Array, Array]:
+        """Attitude of the pelvis, and force and moment of the support on it, world axes."""
+        import mujoco
+
+        walk, data = self._walk, self._data
+        flat, turn, target = np.zeros(9), np.zeros(3), np.zeros(4)
+        mujoco.mju_quat2Mat(flat, data.qpos[3:7])
+        R = flat.reshape(3, 3)
+        mujoco.mju_mat2Quat(target, walk.base[k, :3, :3].ravel())
+        mujoco.mju_subQuat(turn, target, data.qpos[3:7])  # in the pelvis's axes
+        off = np.concatenate([walk.base[k, :3, 3] - data.qpos[:3], R @ turn])
+        rate = walk.base_velocity[k] - np.concatenate([data.qvel[:3], R @ data.qvel[3:_FREE]])
+        wrench: Array = self._stiffness * off + self._damping * rate
+        wrench[2] += self._unloading
+        return R, wrench
+
+    def _note(self, k: int) -> None:
+        """Forces of the floor, which the step computed for the state before it."""
+        data, record = self._data, self._record
+        record.constraint[k] = data.qfrc_constraint
+        record.energy[k] = data.energy[0] + data.energy[1]
+        n = min(data.ncon, record.corner.shape[1])
+        if n:
+            contact = data.contact
+            record.contacts[k] = n
+            record.corner[k, :n] = [self._corners[g] for g in contact.geom2[:n].tolist()]
+            record.point[k, :n] = contact.pos[:n]
+            record.frame[k, :n] = contact.frame[:n]
+            rows = contact.efc_address[:n, None] + np.arange(3)
+            record.force[k, :n] = data.efc_force[rows]
+
+        if data.nl:
+            self._note_stops(k)
+
+    def _note_stops(self, k: int) -> None:
+        """Torques of the joint stops: a stop pushes back into the range."""
+        import mujoco
+
+        model, data = self._model, self._data
+        rows = np.flatnonzero(data.efc_type[: data.nefc] == int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT))
+        for row in rows:
+            joint = int(data.efc_id[row])
+            place = int(model.jnt_qposadr[joint])
+            below = data.qpos[place] < model.jnt_range[joint].mean()
+            ours = self._ours[self._qpos == place]
+            self._record.stops[k, ours] += data.efc_force[row] * (1.0 if below else -1.0)
+
+    def _bad(self) -> str:
+        """Why the run cannot go on."""
+        data = self._data
+        speeds = data.qvel[_FREE:]
+        fastest = float(np.maximum.reduce(np.abs(speeds)))
+        if not math.isfinite(fastest) or not math.isfinite(data.qpos[2]):
+            return "a position or velocity is not finite"
+        if fastest > _FASTEST:
+            return f"a joint is faster than {_FASTEST:g} rad/s"
+        if data.warning.number[self._warnings].any():
+            return "MuJoCo warns of a bad state"
+        return ""

@@ -1,0 +1,135 @@
+"""The robot as a MuJoCo model: its own URDF with a free pelvis, spheres at the sole corners and a floor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exo_pin.anatomy import CORNERS
+from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.physics import GRAVITY
+from exo_pin.robot import Robot
+
+ARMATURE = 0.05
+"""Rotor inertia at each driven joint [kg m^2]: a motor of 1.2e-4 kg m^2 behind a gear of 20:1 has 0.048."""
+
+_SPHERE = 0.010
+"""Radius of the spheres at the sole corners [m]; the lowest point of each is the corner."""
+
+_OPTIONS = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco>'
+
+
+@dataclass(frozen=True)
+class Floor:
+    """The ground.
+
+    Attributes:
+        friction: Coulomb coefficient between sole and floor.
+        time_constant: Of the contact's spring and damper (MuJoCo's solref) [s].
+        damping_ratio: Of the contact; 1 is critical.
+    """
+
+    friction: float = 0.8
+    time_constant: float = 0.01
+    damping_ratio: float = 1.0
+
+
+def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
+    """The editable MuJoCo model (`mujoco.MjSpec`) of a robot.
+
+    Args:
+        robot: With the sole corners of `CORNERS`. Its pelvis is free whatever `robot.base` is.
+        floor: The ground.
+        timestep: Of the simulation [s].
+
+    Raises:
+        DescriptionError: MuJoCo does not accept the robot.
+        UnknownNameError: A sole corner is missing.
+    """
+    import mujoco
+
+    floor = floor or Floor()
+    try:
+        spec = mujoco.MjSpec.from_string(_with_options(robot.urdf))
+    except ValueError as error:
+        raise DescriptionError(f"{robot.name}: MuJoCo does not accept its URDF") from error
+    spec.option.timestep = timestep
+    spec.option.gravity = [0.0, 0.0, -GRAVITY]
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    # a state that went bad would be put back to the start in silence
+    spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    spec.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+    _root(spec).add_freejoint(name="pelvis_free")
+    _add_soles(spec, floor)
+    spec.worldbody.add_geom(
+        name="floor",
+        type=mujoco.mjtGeom.mjGEOM_PLANE,
+        size=[0.0, 0.0, 1.0],
+        contype=0,
+        conaffinity=1,
+        friction=[floor.friction, 0.005, 0.0001],
+        solref=[floor.time_constant, floor.damping_ratio],
+    )
+    for joint in spec.joints:
+        if joint.type != mujoco.mjtJoint.mjJNT_FREE:
+            driven = robot.effort[robot.joints.index(joint.name)] > 0.0
+            joint.armature = ARMATURE if driven else 0.0
+            joint.damping, joint.frictionloss = (
+                np.zeros((3, 1)),
+                0.0,
+            )  # every damper is computed outside the engine
+            joint.actfrclimited = mujoco.mjtLimited.mjLIMITED_FALSE  # so are the motors' limits
+    return spec
+
+
+def mujoco_model(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
+    """The compiled MuJoCo model (`mujoco.MjModel`); arguments and errors as for `mujoco_spec`."""
+    spec = mujoco_spec(robot, floor=floor, timestep=timestep)
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise DescriptionError(f"{robot.name}: MuJoCo does not accept it ({error})") from error
+
+
+def _with_options(urdf: str) -> str:
+    """The URDF with MuJoCo's own element in its root: no link is merged into its parent."""
+    end = urdf.index(">", urdf.index("<robot")) + 1
+    return urdf[:end] + _OPTIONS + urdf[end:]
+
+
+def _root(spec: Any) -> Any:
+    """The body that carries all others."""
+    return spec.worldbody.first_body()
+
+
+def _add_soles(spec: Any, floor: Floor) -> None:
+    """A massless sphere at each sole corner, which meets the floor alone."""
+    import mujoco
+
+    for name in CORNERS:
+        corner = spec.body(name)
+        if corner is None:
+            raise UnknownNameError("sole corner", name, [body.name for body in spec.bodies])
+        corner.add_geom(
+            name=name,
+            type=mujoco.mjtGeom.mjGEOM_SPHERE,
+            size=[_SPHERE, 0.0, 0.0],
+            pos=[0.0, 0.0, _SPHERE],
+            mass=0.0,
+            contype=1,
+            conaffinity=0,
+            condim=3,
+            friction=[floor.friction, 0.005, 0.0001],
+            solref=[floor.time_constant, floor.damping_ratio],
+        )
+
+
+def qpos_of(model: Any, robot: Robot) -> np.ndarray[Any, np.dtype[np.int64]]:
+    """Where the robot's joints stand in MuJoCo's `qpos`, in the order of `robot.joints`."""
+    return np.array([model.joint(name).qposadr[0] for name in robot.joints])

@@ -1,0 +1,59 @@
+"""`Run`: one simulated walk with its verdict and numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from exo_pin.anatomy import FEET
+from exo_pin.simulation.energy import balance
+from exo_pin.simulation.simulated_walk import SimulatedWalk
+from exo_pin.simulation.walk_verdict import Numbers, Verdict, numbers, verdict
+from exo_pin.simulation.witness import witness
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Run(SimulatedWalk):
+    """One simulated walk, N steps; fields as of `SimulatedWalk`."""
+
+    def __repr__(self) -> str:
+        return f"<Run {self.time[-1]:.2f} s, controller {self.controller}, {self.verdict.word}>"
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        """Tracking, contact, forces and torques on the cycles that count."""
+        return numbers(self)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Whether it walks, stumbles, falls or diverges, and why."""
+        return verdict(self, self.numbers)
+
+    @cached_property
+    def energy_balance_percent(self) -> float:
+        """Energy that the balance of the run misses, in percent of what the joints' torques turn over."""
+        return balance(self.record, self.timestep)
+
+    @cached_property
+    def witness(self) -> float:
+        """Difference of MuJoCo's accelerations from Pinocchio's of the same forces, relative."""
+        return witness(self.robot, self.record, self.floor, self.timestep)
+
+    def facts(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return {
+            "verdict": self.verdict.word,
+            "why": self.verdict.why,
+            "time_end_s": float(self.time[-1]),
+            **self.numbers.facts(),
+            "energy_balance_percent": self.energy_balance_percent,
+            "witness": self.witness,
+            "real_time_factor": float(self.time[-1] / self.cpu_time) if self.cpu_time else None,
+            "controller": self.controller,
+            "patient": None if self.patient is None else self.patient.name,
+            "support": self.support.name,
+            "body_weight_support": self.body_weight_support,
+            "body_weight_support_N": self.body_weight_support * self.weight,
+            "feet": list(FEET),
+        }
