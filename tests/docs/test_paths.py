@@ -7,7 +7,12 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [*sorted((ROOT / "docs").glob("*.md")), *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md"))]
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    ROOT / "SECURITY.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+]
 FILE = re.compile(r"(?<![\w/.])((?:exo_pin|tests|scripts|urdf|docs|\.ci)/[\w./-]*)")
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 
@@ -44,3 +49,12 @@ def test_every_test_file_that_a_page_names_exists(page):
     known = {path.stem for path in (ROOT / "tests").rglob("test_*.py")}
     named = set(re.findall(r"`(?:tests/[\w/]*/)?(test_\w+)(?:\.py)?`", page.read_text("utf-8")))
     assert named <= known
+
+
+def test_every_promise_of_the_security_page_names_a_test():
+    """A file that is not there is found by `test_every_file_of_the_repository_that_a_page_names_exists`."""
+    promised = (ROOT / "SECURITY.md").read_text("utf-8").partition("## What is not promised")[0]
+    rows = [line.strip("|").split("|") for line in promised.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) > 10
+    for promise, *_, tests in rows:
+        assert re.search(r"`tests/[\w/]+\.py`", tests), promise
