@@ -77,10 +77,13 @@ def read_bytes(path: str | Path) -> bytes:
         if not path.is_file():
             raise FormatError(path, "not a file" + (" but a folder" if path.is_dir() else ""))
         with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
+            size = os.fstat(file.fileno()).st_size  # known before a byte is read
+            data = file.read(size + 1) if size <= LARGEST_FILE else b""
+            if len(data) > size:  # it grows, or its size is not known (/proc)
+                data += file.read(LARGEST_FILE + 1 - len(data))
     except (OSError, ValueError) as error:  # ValueError: a path with a zero byte in it
         raise FormatError(path, f"cannot be read: {_reason(error)}") from error
-    if len(data) > LARGEST_FILE:
+    if max(size, len(data)) > LARGEST_FILE:
         raise FormatError(path, f"larger than {LARGEST_FILE // 2**20} MiB; split or resample the recording")
     return data
 

@@ -17,7 +17,7 @@ from exo_pin.dynamics.carried_pelvis import carried
 from exo_pin.dynamics.floating_robot import floating_robot, mass_of
 from exo_pin.dynamics.ground_forces import GroundForces
 from exo_pin.dynamics.newton_euler import generalized_forces, in_world_axes
-from exo_pin.dynamics.plate_checks import NOTICED, WeightCheck, check_weight
+from exo_pin.dynamics.plate_checks import NOTICED, WeightCheck, check_horizontal, check_weight
 from exo_pin.dynamics.plate_wrenches import plate_forces
 from exo_pin.dynamics.walk_dynamics import RIGID_TRUNK, Dynamics
 from exo_pin.errors import GaitError
@@ -78,7 +78,8 @@ def torques(
     needed = in_world_axes(moving.base, generalized_forces(model, moving))
     weight = mass_of(model) * float(np.abs(model.model.gravity.linear[2]))
     if stance is None:
-        ground = _measured(model, gait, plates, needed[:, 2] - body_weight_support * weight)
+        support = np.array([0.0, 0.0, body_weight_support * weight])
+        ground = _measured(model, gait, plates, needed[:, :3] - support)
     else:
         share = weight_shift.shares(walk, stance)
         reaction = ground_reaction.predicted(
@@ -95,14 +96,15 @@ def _usual_masses(robot: Robot, plates: tuple[ForcePlate, ...]) -> Masses:
 
 
 def _measured(robot: Robot, gait: Gait, plates: tuple[ForcePlate, ...], expected: Array) -> _Ground:
-    """The plates' forces; `expected` is the vertical force that the motion needs of them `(n,)` [N]."""
+    """The plates' forces; `expected` is the force that the motion needs of them `(n, 3)` [N]."""
     found = plate_forces(robot, gait, plates)
     if not found.known.any():
         raise GaitError(
             f"no frame has the ground reaction of every standing foot: {'; '.join(found.remarks)}"
         )
     vertical = found.ground.force[:, :, 2].sum(axis=1)
-    weight = check_weight(vertical[found.known], expected[found.known])
+    weight = check_weight(vertical[found.known], expected[found.known, 2])
+    check_horizontal(found.ground.force.sum(axis=1)[found.known, :2], expected[found.known, :2])
     remarks = found.remarks
     if abs(weight.difference) >= NOTICED:
         remarks = (*remarks, f"{weight}")

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import ForcePlate
@@ -22,6 +23,12 @@ _TRACE = 0.05
 
 _LONGEST_ARM = 0.5
 """A free moment per newton [m] that no sole can give; N mm given as N m is a thousand times too large."""
+
+_OPPOSITE, _FRAMES = -0.3, 20
+"""Correlation of horizontal force and acceleration below which they are opposite, over so many frames."""
+
+_ON_THE_SPOT = 0.3
+"""A walk whose pelvis stays within this length [m] is on a treadmill."""
 
 _IN_THE_AIR = 0.08
 """Height [m] of a sole's lowest corner above the plate from which the foot is not standing on it."""
@@ -84,13 +91,8 @@ def check_plates(gait: Gait, forces: Sequence[ForcePlate]) -> None:
             row = int(np.argmin(np.isfinite(plate.force).all(axis=1)))
             raise GaitError(f"{plate.name}: the force at {plate.time[row]:g} s is not a finite number")
         _check_moment(plate)
+        _check_direction(plate)
     highest = max(float(plate.force[:, 2].max(initial=0.0)) for plate in forces)
-    lowest, name = min((float(p.force[:, 2].min(initial=0.0)), p.name) for p in forces)
-    if -lowest > max(highest, _CONTACT):
-        raise GaitError(
-            f"{name}: the force points down ({lowest:.0f} N), its sign is turned; the force of the ground "
-            "on the foot is accepted, upwards positive"
-        )
     if _TRACE < highest < _CONTACT:
         raise GaitError(
             f"the largest vertical force of the plates is {highest:.3g} N: kN given as N? N is accepted"
@@ -102,6 +104,34 @@ def _check_clock(gait: Gait, plate: ForcePlate) -> None:
         raise GaitError(
             f"{plate.name} was recorded from {plate.time[0]:g} to {plate.time[-1]:g} s, the walk from "
             f"{gait.time[0]:g} to {gait.time[-1]:g} s; plates of the same clock are accepted"
+        )
+
+
+def _check_direction(plate: ForcePlate) -> None:
+    highest, lowest = (float(f(plate.force[:, 2])) for f in (np.max, np.min))
+    if -lowest > max(highest, _CONTACT):
+        raise GaitError(
+            f"{plate.name}: the force points down ({lowest:.0f} N), its sign is turned; the force of the "
+            "ground on the foot is accepted, upwards positive"
+        )
+
+
+def check_horizontal(measured: Array, expected: Array) -> None:
+    """Refuse plates whose horizontal forces go against the motion.
+
+    Args:
+        measured: `(n, 2)` horizontal force of all plates in the valid frames [N].
+        expected: `(n, 2)` mass times horizontal acceleration there [N].
+
+    Raises:
+        GaitError: They are opposite.
+    """
+    ours, theirs = (values - values.mean(axis=0) for values in (measured, expected))
+    scale = float(np.sqrt((ours**2).sum() * (theirs**2).sum()))
+    if scale > 0.0 and len(ours) >= _FRAMES and float((ours * theirs).sum()) < _OPPOSITE * scale:
+        raise GaitError(
+            "the horizontal forces of the plates point against the acceleration of the body: their sign is "
+            "turned; the force of the ground on the foot is accepted"
         )
 
 
@@ -146,11 +176,33 @@ def check_steps(gait: Gait, steps: Sequence[PlateStep], heights: Mapping[Side, A
         GaitError: With the plate, the time and the reason.
     """
     if not any(step.side for step in steps):
-        why = [f"{_when(step)}: {step.why}" for step in steps if step.why]
-        raise GaitError(": ".join(["no contact of a foot with a force plate was found", *why[:3]]))
+        why = "; ".join(f"{_when(step)}: {step.why}" for step in steps[:2] if step.why)
+        raise GaitError(f"no contact of a foot with a force plate was found{': ' * bool(why)}{why}")
     for step in steps:
         if step.side is not None:
             _check_height(gait, step, heights[step.side])
+
+
+def check_both_feet(gait: Gait, steps: Sequence[PlateStep], stands: Mask) -> None:
+    """Refuse plates of one foot alone on a treadmill; over ground they are usual.
+
+    Args:
+        gait: The walk, its pelvis in the world.
+        steps: Contacts with plates.
+        stands: `(n, 2)` which foot stands.
+
+    Raises:
+        GaitError: With the foot that is missing.
+    """
+    assert gait.base is not None
+    path = np.ptp(gait.base[:, :2, 3], axis=0)
+    both_walk = bool((stands.any(axis=0) & ~stands.all(axis=0)).all())
+    for side in SIDES:
+        if both_walk and path.max() < _ON_THE_SPOT and not any(step.side == side for step in steps):
+            raise GaitError(
+                f"no plate bears the {side} foot, though the walk stays in place as on a treadmill: "
+                "the forces of both feet are accepted"
+            )
 
 
 def _check_height(gait: Gait, step: PlateStep, height: Array) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,12 +11,15 @@ import numpy as np
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics.ground_forces import GroundForces, from_wrenches
-from exo_pin.dynamics.plate_checks import check_plates, check_points, check_steps
+from exo_pin.dynamics.plate_checks import check_both_feet, check_plates, check_points, check_steps
+from exo_pin.dynamics.plate_clock import check_event_times
 from exo_pin.errors import GaitError
-from exo_pin.gait import Gait
+from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.ground import estimated_stance, lowest_corners, stance_from_events, standing
-from exo_pin.kinematics import PlateStep, plate_steps, poses, with_plates
+from exo_pin.kinematics import PlateStep, events, poses
+from exo_pin.kinematics.plate_contacts import merged_events, step_events, steps_under
+from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.robot import Robot
 
 _EDGE = 0.05
@@ -53,9 +57,10 @@ def plate_forces(robot: Robot, gait: Gait, forces: Sequence[ForcePlate]) -> Plat
         GaitError: The plates cannot belong to this walk, or no contact has a foot.
     """
     check_plates(gait, forces)
-    steps = plate_steps(robot, gait, forces)
     corners = poses(robot, robot.from_gait(gait), CORNERS)[..., :3, 3]
+    steps = steps_under(gait, heels_and_balls(corners), forces)
     check_steps(gait, steps, lowest_corners(corners))
+    stands = _standing_feet(robot, gait, steps, corners)
     wrench, height = np.zeros((len(gait), 2, 6)), np.zeros((len(gait), 2))
     for step in steps:
         if step.side is not None:
@@ -63,7 +68,8 @@ def plate_forces(robot: Robot, gait: Gait, forces: Sequence[ForcePlate]) -> Plat
             own, level = _at(step, gait.time)
             wrench[:, foot] += own
             height[:, foot] = np.where(np.isfinite(level), level, height[:, foot])
-    beside = _standing_feet(robot, gait, forces, corners) & ~_loaded(steps, gait.time)
+    check_both_feet(gait, steps, stands)
+    beside = stands & ~_loaded(steps, gait.time)
     shared = _unassigned(steps, gait.time)
     outside = ~np.all([(gait.time >= p.time[0]) & (gait.time <= p.time[-1]) for p in forces], axis=0)
     known = np.asarray(~(beside.any(axis=1) | shared | outside))
@@ -90,12 +96,17 @@ def _at(step: PlateStep, time: Array) -> tuple[Array, Array]:
     return own, np.where(inside, float(np.median(point[:, 2])), np.nan)
 
 
-def _standing_feet(robot: Robot, gait: Gait, forces: Sequence[ForcePlate], corners: Array) -> Mask:
-    """`(n, 2)` which foot stands, by plates and events, else by the heights of the soles."""
-    try:
-        walk = with_plates(robot, gait, forces)
-    except GaitError:  # nobody struck or left a plate: standing, or a part of a stance
-        walk = gait
+def _standing_feet(robot: Robot, gait: Gait, steps: Sequence[PlateStep], corners: Array) -> Mask:
+    """`(n, 2)` which foot stands, by plates and events, else by the heights of the soles.
+
+    Raises:
+        GaitError: The events of the plates are at other times than those of the feet.
+    """
+    measured, moving = step_events(gait, steps), tuple[Event, ...]()
+    with contextlib.suppress(GaitError):  # standing, or a part of a stance: no walk
+        moving = events(robot, gait)
+    check_event_times(moving, measured)
+    walk = merged_events(gait, gait.events or moving, measured)
     stance = stance_from_events(walk) or estimated_stance(gait, lowest_corners(corners))
     time = gait.time - gait.time[0]
     return np.stack([standing(stance, side, time) for side in SIDES], axis=1)

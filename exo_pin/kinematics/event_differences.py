@@ -64,7 +64,7 @@ def event_differences(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) ->
         measured = plate_events(robot, gait, forces)
     except GaitError:
         return ()
-    return (*_of(gait.events, measured), *_of(_by_kinematics(robot, gait), measured))
+    return (*differences(gait.events, measured), *differences(_by_kinematics(robot, gait), measured))
 
 
 def disagreements(found: Iterable[EventDifference]) -> tuple[str, ...]:
@@ -84,8 +84,8 @@ def _by_kinematics(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         return ()
 
 
-def _of(known: Sequence[Event], measured: Sequence[Event]) -> Iterable[EventDifference]:
-    """The differences by source and kind, in the order of the kinds."""
+def differences(known: Sequence[Event], measured: Sequence[Event]) -> tuple[EventDifference, ...]:
+    """How late known events are against those of the plates, by source and kind, kinds in their order."""
     late: dict[tuple[EventKind, str], list[float]] = {}
     for plate in measured:
         near = [event for event in known if same_moment(event, plate)]
@@ -93,4 +93,4 @@ def _of(known: Sequence[Event], measured: Sequence[Event]) -> Iterable[EventDiff
             event = min(near, key=lambda event: abs(event.time - plate.time))
             late.setdefault((plate.kind, event.source), []).append(event.time - plate.time)
     ordered = sorted(late, key=lambda key: EVENT_KINDS.index(key[0]))
-    return [EventDifference(source, kind, tuple(late[kind, source])) for kind, source in ordered]
+    return tuple(EventDifference(source, kind, tuple(late[kind, source])) for kind, source in ordered)

@@ -95,7 +95,18 @@ def plate_steps(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tuple
     """
     if gait.base is None:
         raise GaitError("the pelvis does not move in the world, so no foot can be found on a force plate")
-    soles = sole_points(robot, gait).mean(axis=2)
+    return steps_under(gait, sole_points(robot, gait), forces)
+
+
+def steps_under(gait: Gait, soles: Array, forces: Iterable[ForcePlate]) -> tuple[PlateStep, ...]:
+    """The same from the paths of the soles.
+
+    Args:
+        gait: The walk.
+        soles: `(n, 2, 2, 3)` left and right foot: heel and ball in the world [m].
+        forces: Force plates.
+    """
+    soles = soles.mean(axis=2)
     return tuple(
         PlateStep(plate, contact, *_whose(gait.time, soles, plate, contact))
         for plate in forces
@@ -105,20 +116,27 @@ def plate_steps(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> tuple
 
 def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _PlateEvents:
     """Events and what gives none; errors as of `plate_events`."""
-    found, unused = list[Event](), dict[str, list[str]]()  # reason -> contacts
-    for plate, contact, side, why in plate_steps(robot, gait, forces):
+    steps, unused = plate_steps(robot, gait, forces), dict[str, list[str]]()  # reason -> contacts
+    for plate, contact, _, why in steps:
         if why:
             start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
             unused.setdefault(why, []).append(f"{plate.name}, {start:.2f} .. {stop:.2f} s")
+    found = step_events(gait, steps)
+    contacts = [f"{'; '.join(of)}: {why}" for why, of in unused.items()]
+    if not found:
+        raise GaitError(": ".join(("no contact of a foot with a force plate was found", *contacts)))
+    return _PlateEvents(found, tuple(f"no event by {words}" for words in contacts))
+
+
+def step_events(gait: Gait, steps: Iterable[PlateStep]) -> tuple[Event, ...]:
+    """Heel strikes and toe-offs of the contacts whose foot is known, within the walk, sorted by time."""
+    found = list[Event]()
+    for _, contact, side, _ in steps:
         times: dict[EventKind, float | None] = {"heel_strike": contact.strike, "toe_off": contact.off}
         for kind, t in times.items():
             if side and t is not None and gait.time[0] <= t <= gait.time[-1]:
                 found.append(Event(t, kind, side, force_plates.FORCE_PLATE))
-    contacts = [f"{'; '.join(of)}: {why}" for why, of in unused.items()]
-    if not found:
-        raise GaitError(": ".join(("no contact of a foot with a force plate was found", *contacts)))
-    remarks = tuple(f"no event by {words}" for words in contacts)
-    return _PlateEvents(tuple(sorted(found, key=lambda event: event.time)), remarks)
+    return tuple(sorted(found, key=lambda event: event.time))
 
 
 def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
@@ -143,6 +161,18 @@ def with_plates(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> Gait:
         known = with_events(robot, gait).events
     except GaitError:
         return gait
+    return merged_events(gait, known, measured)
+
+
+def merged_events(gait: Gait, known: Iterable[Event], measured: Iterable[Event]) -> Gait:
+    """The gait with the plates' events, and beside them the known ones, moved where they are kinematics'.
+
+    Args:
+        gait: The walk.
+        known: Its own events, or those of its kinematics where it has none.
+        measured: Those of the plates.
+    """
+    known, measured = tuple(known), tuple(measured)
     others = [e for e in known if not any(same_moment(e, plate) for plate in measured)]
     if not gait.events:
         late = {kind: _late(known, measured, kind) for kind in EVENT_KINDS}

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import csv
 import time
+import tracemalloc
 
+import numpy as np
 import pytest
 
 from exo_pin.cli import clock, main
 from exo_pin.cli.measures import metres
 from exo_pin.errors import LONGEST_MESSAGE, FormatError, UnknownNameError
 from exo_pin.files import read_text
-from exo_pin.formats import save_gait
+from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import normative_gait
 from exo_pin.safe import toml_file
 from exo_pin.safe.spreadsheet_cells import marked, table, unmarked
@@ -113,3 +115,31 @@ def test_a_cell_that_is_too_long_for_a_table_costs_a_short_line(tmp_path, capsys
     assert main(["info", str(path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert len(line) <= LONGEST_MESSAGE + len("exo-pin: ")
+
+
+@pytest.mark.parametrize("name", ["walk.csv", "walk.mot", "walk.npz", "walk.trc", "walk.c3d", "walk.json"])
+def test_a_file_of_ten_million_rows_is_refused_before_it_is_read(tmp_path, name):
+    path = tmp_path / name
+    with path.open("wb") as file:
+        file.write(b"time_s,left_hip_flexion_deg\n")
+        file.truncate(10**7 * 13 * 8)  # a hole, which takes no place on the disk
+    tracemalloc.start()
+    try:
+        with pytest.raises(FormatError, match="larger than 128 MiB; split or resample"):
+            load_gait(path)
+        assert tracemalloc.get_traced_memory()[1] < 10e6  # [bytes], imports included
+    finally:
+        tracemalloc.stop()
+
+
+def test_an_archive_of_ten_million_frames_is_refused_by_its_directory(tmp_path):
+    path = tmp_path / "walk.npz"
+    frames = np.broadcast_to(np.zeros(1), (10**7, 2))  # 160 MB that pack into 0.2 MB
+    np.savez_compressed(path, q=frames)
+    tracemalloc.start()
+    try:
+        with pytest.raises(FormatError, match="more than 128 MiB unpacked"):
+            load_gait(path)
+        assert tracemalloc.get_traced_memory()[1] < 10e6  # [bytes]
+    finally:
+        tracemalloc.stop()

@@ -17,6 +17,28 @@ def written(path, rows):
     return path
 
 
+@pytest.mark.parametrize("change", [str.upper, str.title, lambda names: names.replace("time", "Time (s)")])
+def test_columns_may_be_written_in_capitals(tmp_path, change):
+    path = written(tmp_path / "grf.mot", [[k / 10, *range(9)] for k in range(3)])
+    (expected,) = load_forces(path)
+    head, table = path.read_text().split("endheader\n")
+    path.write_text(head + "endheader\n" + change(table))
+    (plate,) = load_forces(path)
+    for part in ("time", "force", "point", "moment"):
+        np.testing.assert_array_equal(getattr(plate, part), getattr(expected, part))
+
+
+def test_a_plate_without_torques_has_no_free_moment_and_that_is_said(tmp_path):
+    path = written(tmp_path / "grf.mot", [[k / 10, *range(9)] for k in range(3)])
+    path.write_text(path.read_text().replace("torque", "turn"))
+    (plate,) = load_forces(path)
+    assert not plate.moment.any()
+    assert "no torque columns" in " ".join(plate.remarks)
+    path.write_text(path.read_text().replace("ground_turn_x", "ground_torque_x"))
+    with pytest.raises(FormatError, match="no column for my, mz"):
+        load_forces(path)
+
+
 def test_a_point_of_nobody_is_zero(tmp_path):
     nan = float("nan")
     path = written(tmp_path / "grf.mot", [[0, *[0] * 3, *[nan] * 6], [0.1, 0, 700, 0, 1, 0, 2, 0, 3, 0]])

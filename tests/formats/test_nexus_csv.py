@@ -42,6 +42,14 @@ def test_model_outputs_are_read_with_the_frames_own_times(lab, path, walk, sep, 
     np.testing.assert_allclose(back.time, (first - 1) / 100 + walk.time, atol=EXACT)
 
 
+@pytest.mark.parametrize(
+    ("sep", "rate"), [(",", "100 Hz"), (",", "100.0hz"), (";", "100,0"), (";", "100;;;;")]
+)
+def test_a_rate_may_have_its_unit_a_decimal_comma_and_empty_cells(lab, path, walk, sep, rate):
+    path.write_text(lab.nexus(walk, sep=sep).replace("\n100\n", f"\n{rate}\n"))
+    np.testing.assert_allclose(load_gait(path).time, walk.time, atol=EXACT)
+
+
 def test_a_txt_with_tabs_and_blank_lines_and_marks_is_read_too(lab, tmp_path, walk):
     path = tmp_path / "walk.txt"
     path.write_bytes(b"\xef\xbb\xbf\r\n\t\t\r\n" + lab.nexus(walk, sep="\t").replace("\n", "\r\n").encode())

@@ -36,7 +36,8 @@ def write_gait(gait: Gait, path: Path) -> None:
     try:
         import ezc3d  # 0.1 s, needed here only
     except ImportError:
-        why = "cannot be written: C3D files are written by the Python package ezc3d, which is not installed"
+        why = "cannot be written: C3D files are written by the Python package ezc3d, which is not installed; "
+        why += "write .csv, .mot, .npz or another format instead (it has no wheel for Linux on ARM)"
         raise FormatError(path, why) from None
     file = ezc3d.c3d()
     points = _angles(gait) | _pelvis(gait)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +16,8 @@ from exo_pin.safe.plain_numbers import number_or_nan
 
 TITLES = ("Model Outputs", "Trajectories", "Devices", "Events", "Joints", "Segments", "Global Model Outputs")
 """First cell of a section's first line."""
+
+_RATE_UNIT = re.compile(r"\s*hz$", re.IGNORECASE)
 
 _HEADER = 5
 """Lines of a section above its rows: title, rate, names, axes, units."""
@@ -113,7 +116,7 @@ def _section(path: Path, title: str, body: Sequence[str], line: int) -> Exported
     if len(body) < _HEADER or not rows:
         raise FormatError(path, f"section {title} has no rows below its names, axes and units", line=line)
     separator = _separator(body[3])
-    rate = number_or_nan(_cells(body[1], separator)[0])
+    rate = _number(_RATE_UNIT.sub("", _cells(body[1], separator)[0]), separator)
     if not 0 < rate <= 1e5:
         shown = body[1].strip()[:20]
         raise FormatError(path, f"section {title}: {shown!r} is no rate in Hz", line=line + 1)

@@ -68,9 +68,17 @@ def check_complete(table: NumericTable, given: Collection[str], used: Iterable[s
 def _instead(names: tuple[str, ...]) -> str:
     """What a table without joint coordinates holds."""
     if any(re.search(r"force|moment|torque", name, re.IGNORECASE) and "/" not in name for name in names):
-        return "holds forces or moments; expected joint coordinates (inverse kinematics)"
+        return (
+            "holds forces or moments; expected joint coordinates (inverse kinematics); ground reaction "
+            "forces go beside a walk, --forces FILE"
+        )
     shown = ", ".join(name[:40] for name in names[:_SHOWN]) + " ..." * (len(names) > _SHOWN)
     return f"missing coordinates: none of hip_flexion_r, knee_angle_r ... (columns: {shown})"
+
+
+def is_time(name: str) -> bool:
+    """Whether a column is named `time`, perhaps with a capital or its unit: `Time (s)`."""
+    return bool(re.fullmatch(r"time\s*[\[(]?\s*(s|sec|seconds)?\s*[\])]?", name, re.IGNORECASE))
 
 
 def plain_name(name: str) -> str:
@@ -78,7 +86,7 @@ def plain_name(name: str) -> str:
 
     Names that are not those of OpenSim's usual models stay as they are, `/.../speed` too.
     """
-    if re.fullmatch(r"time\s*[\[(]?\s*(s|sec|seconds)?\s*[\])]?", name, re.IGNORECASE):
+    if is_time(name):
         return TIME_COLUMN
     parts = name.split("/")
     name = parts[-2] if len(parts) > 1 and parts[-1].lower() == "value" else name
