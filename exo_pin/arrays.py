@@ -15,6 +15,8 @@ Index = NDArray[np.int64]
 """Positions in another array."""
 
 Entry = TypeVar("Entry", bound=np.generic)
+_FLOAT = np.dtype(np.float64)
+_REAL = "fiub"  # NumPy's kinds of numbers without an imaginary part, and truth values
 _CPU = 1  # DLPack's number of the host (dlpack.h, DLDeviceType)
 
 
@@ -26,16 +28,20 @@ def is_remote(values: Any) -> bool:
 
 
 def as_floats(values: ArrayLike) -> Array:
-    """Numbers in double precision, left where they live.
+    """Real numbers in double precision, left where they live.
+
+    NumPy's own conversion would drop imaginary parts and masks, and read texts as numbers.
 
     Raises:
-        TypeError: The values are no numbers.
-        ValueError: The rows have different lengths, or a text is no number.
+        TypeError: The values are complex, masked or no numbers.
+        ValueError: The rows have different lengths.
     """
-    if is_remote(values):
-        remote: Any = values
-        return np.asarray(remote, dtype=float, like=remote)
-    return np.asarray(values, dtype=float)
+    array: Any = values if is_remote(values) else np.asarray(values)
+    if array.dtype == _FLOAT and type(values) is np.ndarray:
+        return array  # type: ignore[no-any-return]
+    if array.dtype.kind not in _REAL or (isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values)):
+        raise TypeError(f"{array.dtype} is no kind of real numbers, or some are masked")
+    return np.asarray(array, dtype=float, like=array)
 
 
 def beside(values: NDArray[Entry], other: Any) -> NDArray[Entry]:

@@ -17,6 +17,7 @@ from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
 from exo_pin.anatomy.names import HipOrder, Masses
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
+from exo_pin.arguments import table, word
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.safe import plain_numbers
@@ -73,8 +74,7 @@ def arguments(
         UnknownNameError: Device, hip order or an override is unknown.
         DescriptionError: An override is no plausible number, or an inertia is not physical.
     """
-    if hip_order not in HIP_ORDERS:
-        raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
+    word("hip order", hip_order, HIP_ORDERS)
     found = devices.find(device)
     sizes = {name: _text(getattr(body, name)) for name in _SIZES}
     values = _structure(found, hip_order) | sizes | {"girth": _text(body.girth)}
@@ -123,8 +123,10 @@ def expand(values: Mapping[str, str], *, name: str = "exo12") -> str:
     The text is kept in the cache folder, under everything that it follows from: xacro takes 0.2 s.
 
     Raises:
-        DescriptionError: xacro refuses the sources.
+        DescriptionError: A value is no text, or xacro refuses the sources.
     """
+    if not all(isinstance(value, str) for value in table("values", values).values()):
+        raise DescriptionError("values holds something that is no text; those of `arguments` are accepted")
     known = cache.key((*_makers(), name, *(part for pair in values.items() for part in pair)))
     kept = cache.recall("urdf", known)
     if kept is not None:

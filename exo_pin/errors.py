@@ -51,6 +51,8 @@ def shortened(text: str, most: int = LONGEST_MESSAGE) -> str:
 def same_name(name: str, known: Iterable[str]) -> str | None:
     """The known name that differs in capitals, hyphens or spaces at most; None if there is not one alone."""
     names = tuple(known)
+    if not isinstance(name, str):
+        return None
     if name in names:
         return name
     found = [other for other in names if _spelled(other) == _spelled(name)]
@@ -92,6 +94,7 @@ class UnknownNameError(DescriptionError):
     """
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+        name = str(name)  # what is no text is no known name either
         self.kind, self.name, self.known = kind, name, tuple(known)
         super().__init__(f"unknown {kind} {shortened(name, _LONGEST_NAME)!r}; {hint(name, self.known)}")
 

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from exo_pin.arguments import count, number, real
+from exo_pin.arguments import names as as_names
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 
@@ -81,13 +83,13 @@ def lowpass(time: ArrayLike, y: ArrayLike, *, cutoff: float = CUTOFF, order: int
     """
     from scipy import signal  # 0.3 s, needed here only
 
-    t, values = np.asarray(time, dtype=float), np.asarray(y, dtype=float)
+    t, values = _curves(time, y, gaps=True, increasing=False)
     rate = _rate(t)
-    if order not in (2, 4, 6, 8):
+    if count("order", order, 2, 8, error=GaitError) % 2:
         raise GaitError(f"order is {order}; 2, 4, 6 or 8 (forward and backward together) is accepted")
-    if not 0 < cutoff < rate / 2:
+    if not number("cut-off", cutoff, error=GaitError) < rate / 2 or cutoff <= 0:
         raise GaitError(f"cut-off is {cutoff:g} Hz; more than 0 and less than {rate / 2:g} Hz is accepted")
-    if not np.isfinite(values).all():
+    if np.isnan(values).any():
         raise GaitError("a curve with gaps cannot be filtered; fill them first")
     half = order // 2
     correction = (np.sqrt(2.0) - 1.0) ** (1 / (2 * half))
@@ -104,9 +106,13 @@ def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
         time: `(n,)` increasing [s].
         y: `(n, ...)` curves; a sample is missing where it is NaN.
         limit: Longest gap that is filled, from the last sample before to the first after it [s].
+
+    Raises:
+        GaitError: The shapes do not fit, the time does not increase, or a number is infinite.
     """
-    t = np.asarray(time, dtype=float)
-    values = np.array(y, dtype=float)
+    t, given = _curves(time, y, gaps=True)
+    number("limit", limit, least=0.0, error=GaitError)
+    values = given.copy()
     flat = values.reshape(len(t), -1)
     before = int(np.isnan(flat).sum())
     if not before:
@@ -127,8 +133,12 @@ def filled(time: ArrayLike, y: ArrayLike, *, limit: float = GAP) -> Filled:
 
 
 def longest_run(good: ArrayLike) -> tuple[int, int]:
-    """Start and stop of the longest run of True in `(n,)`; 0 and 0 without any."""
-    marked = np.concatenate([[False], np.asarray(good, dtype=bool), [False]])
+    """Start and stop of the longest run of True in `(n,)`; 0 and 0 without any.
+
+    Raises:
+        GaitError: The values are no truth values `(n,)`.
+    """
+    marked = np.concatenate([[False], real("good", good, ("n",), error=GaitError) != 0.0, [False]])
     runs = np.flatnonzero(marked[1:] != marked[:-1]).reshape(-1, 2)
     if not len(runs):
         return 0, 0
@@ -151,8 +161,13 @@ def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = _OUTLIER_FACTOR, le
 
     Returns:
         `(n, ...)` signed deviations.
+
+    Raises:
+        GaitError: The shapes do not fit, the time does not increase, or a number is not finite.
     """
-    t, values = np.asarray(time, dtype=float), np.asarray(y, dtype=float)
+    t, values = _curves(time, y)
+    number("factor", factor, least=0.0, error=GaitError)
+    number("least", least, least=0.0, error=GaitError)
     off = np.zeros(values.shape)
     if len(values) < 5:
         return off
@@ -173,10 +188,41 @@ def outliers(time: ArrayLike, y: ArrayLike, names: Sequence[str], *, least: floa
         y: `(n, m)` curves without gaps.
         names: m names.
         least: Smaller deviations are no outliers, in units of y.
+
+    Raises:
+        GaitError: The shapes do not fit, the time does not increase, or a number is not finite.
     """
-    off = spikes(time, y, least=least)
-    times = np.asarray(time, dtype=float)
-    return tuple(Outlier(names[k], float(times[i]), float(off[i, k])) for i, k in np.argwhere(off))
+    texts = as_names("names", names, error=GaitError)
+    times, values = _curves(time, y)
+    if values.shape[1:] != (len(texts),):
+        raise GaitError(
+            f"{len(texts)} names for curves of shape {values.shape}; (n, {len(texts)}) is accepted"
+        )
+    off = spikes(times, values, least=least)
+    return tuple(Outlier(texts[k], float(times[i]), float(off[i, k])) for i, k in np.argwhere(off))
+
+
+def _curves(
+    time: ArrayLike, y: ArrayLike, *, gaps: bool = False, increasing: bool = True
+) -> tuple[Array, Array]:
+    """Increasing times `(n,)` and curves `(n, ...)` on them.
+
+    Args:
+        time: As given [s].
+        y: As given.
+        gaps: Whether NaN is accepted in curves.
+        increasing: Whether times must differ: rounded ones may not.
+
+    Raises:
+        GaitError: They are not; or a number is not finite, NaN for gaps excepted.
+    """
+    t = real("time", time, ("n",), error=GaitError)
+    values = real("y", y, gaps=gaps, error=GaitError)
+    if values.shape[:1] != t.shape:
+        raise GaitError(f"y has shape {values.shape}; ({len(t)}, ...) is accepted, a row for each time")
+    if increasing and not (np.diff(t) > 0).all():
+        raise GaitError(f"time does not increase after sample {int((np.diff(t) <= 0).argmax())}")
+    return t, values
 
 
 def _around(t: Array, values: Array) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "exo_pin"
 FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
-    {"files", "scratch", "chunks"},
+    {"arguments", "files", "scratch", "chunks"},
     {"safe", "cache", "examples"},
     {"ros_packages"},
     {"xacro_files"},
@@ -46,7 +46,18 @@ INNER_FLOORS = {  # of rooms with folders, in the same order; "." are the module
     "viewer": [{"drawing_commands"}, {"meshes"}, {"scenes"}, {"page"}, {"film", "live"}, {"."}],
     "cli": [{"."}, {"commands"}],
 }
-GROUND = {"errors", "arrays", "chunks", "physics", "frozen_fields", "files", "cache", "anatomy", "devices"}
+GROUND = {
+    "errors",
+    "arguments",
+    "arrays",
+    "chunks",
+    "physics",
+    "frozen_fields",
+    "files",
+    "cache",
+    "anatomy",
+    "devices",
+}
 FLOOR = {room: k for k, rooms in enumerate(FLOORS) for room in rooms}
 ONLY = {  # what comes from elsewhere is imported here and nowhere else
     "xacro": {"description", "xacro_files"},

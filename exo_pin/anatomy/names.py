@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
+from exo_pin.errors import UnknownNameError
+
 Side = Literal["left", "right"]
 Movement = Literal[
     "hip_flexion", "hip_adduction", "hip_rotation", "knee_flexion", "ankle_dorsiflexion", "ankle_inversion"
@@ -100,5 +102,13 @@ HIP_ORDERS: dict[HipOrder, tuple[Movement, Movement, Movement]] = {
 
 
 def joint(side: Side, movement: Movement) -> str:
-    """The joint's name, e.g. `left_knee_flexion`."""
+    """The joint's name, e.g. `left_knee_flexion`.
+
+    Raises:
+        UnknownNameError: Side or movement is unknown.
+    """
+    if side not in SIDES:
+        raise UnknownNameError("side", side, SIDES)
+    if movement not in MOVEMENTS:
+        raise UnknownNameError("movement", movement, MOVEMENTS)
     return f"{side}_{movement}"

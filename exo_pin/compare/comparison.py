@@ -10,6 +10,7 @@ from typing import Any
 
 from exo_pin import devices as known
 from exo_pin.anatomy import Body
+from exo_pin.arguments import several
 from exo_pin.compare.best_motion import best, projected, robot_for
 from exo_pin.compare.loss import Loss, clearance, step_width
 from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, walk
@@ -69,13 +70,14 @@ def compare(
 
     Raises:
         UnknownNameError: A device is unknown.
+        DescriptionError: `devices` is no sequence.
     """
     body = Body.from_stature() if body is None else body
     recorded = walk(gait, body)
     with contextlib.suppress(GaitError):  # without cycles phases, step width and clearance are unknown
         recorded = dataclasses.replace(recorded, gait=with_events(recorded.robot, gait))
     pairs = []
-    for device in map(known.find, devices):
+    for device in map(known.find, several("devices", devices)):
         robot = robot_for(device, body, conditions)
         done = (best(recorded, robot, conditions), projected(recorded, robot, conditions))
         pairs.append(tuple(Loss(device, recorded, motion) for motion in done))

@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin import ik
 from exo_pin.anatomy import FEET
+from exo_pin.arguments import count
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import angle_of
@@ -28,7 +29,11 @@ def errors_by_step(robot: Robot, gait: Gait, sample: int, *, tolerance: float) -
         gait: The walk.
         sample: Row of the walk whose feet are the target.
         tolerance: Of both errors, at which the iteration ends [m or rad].
+
+    Raises:
+        DescriptionError: There is no such sample, or the tolerance is no positive number.
     """
+    sample = count("sample", sample, 0, len(gait) - 1)
     row = gait.base[sample : sample + 1] if gait.base is not None and robot.base == "fixed" else None
     q = robot.from_gait(gait)[sample : sample + 1]
     feet = poses(robot, q, FEET, base=row)

@@ -10,6 +10,7 @@ import numpy as np
 from exo_pin import ik
 from exo_pin.anatomy import FEET, JOINTS, MOVEMENTS, SIDES
 from exo_pin.anatomy.names import Movement
+from exo_pin.arguments import LARGEST_SEED, count, number
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.ik.settings import Settings
@@ -25,6 +26,9 @@ ANGLE_TOLERANCE = 1e-6
 BENT_KNEE = np.radians(5.0)
 """Angles are compared where the knee is bent more than this [rad]: towards a straight knee a foot's pose
 hardly determines the knee's angle."""
+
+_LARGEST_NOISE = 1.0
+"""Standard deviation [m]: more is a slip of units."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +105,12 @@ def recover_noisy(robot: Robot, gait: Gait, sd: float, *, damping: float = 0.0, 
         damping: Of `ik.Dls` [m/rad], which holds each sample to the one before; 0 solves every sample by
             itself.
         seed: Of the noise: the same in every run.
+
+    Raises:
+        DescriptionError: A number is negative or not finite.
     """
+    sd, damping = number("sd", sd, least=0.0, most=_LARGEST_NOISE), number("damping", damping, least=0.0)
+    seed = count("seed", seed, 0, LARGEST_SEED)
     feet = poses(robot, robot.from_gait(gait), FEET, base=robot.base_of(gait))
     feet[..., :3, 3] += np.random.default_rng(seed).normal(scale=sd, size=(*feet.shape[:2], 3))
     return _recovered(robot, gait, feet, ik.Dls(damping=damping) if damping else ik.Auto())

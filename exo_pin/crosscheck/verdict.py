@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from exo_pin import ik
+from exo_pin.arguments import LARGEST_SEED, count
 from exo_pin.crosscheck.dynamics_witnesses import DYNAMICS_TOLERANCE, inverse_dynamics
 from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, IK_TOLERANCE, Recovery, recover
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
@@ -116,7 +117,11 @@ def check(robot: Robot, gait: Gait, *, seed: int = 0, dynamics: bool = False) ->
         gait: The walk.
         seed: Of the random configurations that the forward check adds to the gait's own.
         dynamics: Whether inverse dynamics are checked too, on random states.
+
+    Raises:
+        DescriptionError: The seed is no whole number from 0 on, or the robot is none of this package's.
     """
+    seed = count("seed", seed, 0, LARGEST_SEED)
     rng = np.random.default_rng(seed)
     random = rng.uniform(robot.lower, robot.upper, (_RANDOM, len(robot.joints)))
     recovery = recover(robot, gait)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from exo_pin import dh
 from exo_pin.anatomy import FEET, JOINTS
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.kinematics import poses
@@ -41,11 +42,12 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
         too, and both feet.
 
     Raises:
-        DescriptionError: The robot is not an exoskeleton of this package.
+        DescriptionError: The robot is not an exoskeleton of this package, the shape of q does not fit, or a
+            number is not finite.
     """
     if robot.body is None or robot.base != "fixed":
         raise DescriptionError("the witness needs a robot that load_robot made with a fixed base")
-    q = np.asarray(q, dtype=float).reshape(-1, robot.nq)
+    q = real("q", q, ("n", robot.nq))
     few = q[np.unique(np.linspace(0, len(q) - 1, _SAMPLES).astype(int))]
     body, order = robot.body, robot.hip_order
 

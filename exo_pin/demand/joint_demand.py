@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arguments import number
 from exo_pin.arrays import Array
 from exo_pin.demand.quantity import PeakDemand, RangeDemand, range_demands
 from exo_pin.devices import SLIDES, movement_of
@@ -101,7 +102,10 @@ def joint_demands(
 
     Raises:
         GaitError: The torques are at other times than the walk.
+        DescriptionError: The acceleration is no positive number.
     """
+    if acceleration is not None:
+        number("acceleration", acceleration, above=0.0)
     own, tau = _in_hip_order(robot, gait), None if torques is None else torques.at(gait.time)
     available = (
         acceleration_limits(robot) if acceleration is None else np.full(len(robot.joints), acceleration)

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.arrays import Array, Mask
+from exo_pin.arguments import names, real
+from exo_pin.arrays import Array, Mask, as_floats
+from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
 
@@ -109,8 +111,12 @@ class PeakDemand:
 
 
 def range_demands(robot: Robot, q: npt.ArrayLike) -> dict[str, RangeDemand]:
-    """The range that configurations (n, nq) require of every joint of a robot, by joint."""
-    angles = robot.angles(q)
+    """The range that configurations (n, nq) require of every joint of a robot, by joint.
+
+    Raises:
+        DescriptionError: The shape of q does not fit, or a number is not finite.
+    """
+    angles = robot.angles(real("q", q, ("n", robot.nq)))
     limits = zip(robot.lower.tolist(), robot.upper.tolist(), strict=True)
     return {
         joint: RangeDemand(angles[:, j], pair)
@@ -126,10 +132,29 @@ def peak_demands(
     Args:
         joints: Names (J,).
         required: Values (n, J), NaN where unknown.
-        available: Limits (J,), or one limit for all, in the same unit.
+        available: Limits (J,), or one limit for all, in the same unit; infinite where there is none.
+
+    Raises:
+        DescriptionError: A shape does not fit, or a value is no number.
     """
-    limits = np.broadcast_to(np.asarray(available, dtype=float), (len(joints),)).tolist()
+    joints = names("joints", joints)
+    required = real("required", required, ("n", len(joints)), gaps=True)
+    most = _limits(available)
+    if most.shape not in ((), (len(joints),)):
+        raise DescriptionError(f"available has shape {most.shape}; () or ({len(joints)},) is accepted")
+    limits = np.broadcast_to(most, (len(joints),)).tolist()
     return {
         joint: PeakDemand(required[:, j], limit)
         for j, (joint, limit) in enumerate(zip(joints, limits, strict=True))
     }
+
+
+def _limits(available: npt.ArrayLike) -> Array:
+    """Limits as numbers, infinite ones among them."""
+    try:
+        limits = as_floats(available)
+    except (TypeError, ValueError):
+        raise DescriptionError("available is not an array of real numbers") from None
+    if np.isnan(limits).any() or (limits < 0.0).any():
+        raise DescriptionError("available holds NaN or a negative number; limits from 0 on are accepted")
+    return limits

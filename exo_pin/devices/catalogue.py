@@ -196,7 +196,7 @@ def find(device: str | Device) -> Device:
     name = _known_name(device)
     if name is not None:
         return DEVICES[name]
-    if Path(device).suffix.lower() == ".toml":
+    if isinstance(device, str | Path) and Path(device).suffix.lower() == ".toml":
         own = load(device)
         if own.name in DEVICES:
             raise FormatError(device, f"name {own.name!r} is that of a device of exo_pin; take another")

@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any
 
 from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES
+from exo_pin.arguments import names, number, real, table, word
 from exo_pin.devices.actuator import (
     ADDED_JOINT_RANGES,
     DEFAULT_ACCELERATIONS,
@@ -85,7 +86,7 @@ class Device:
             raise DescriptionError(
                 f"device name {self.name!r}: lower-case letters, digits and _ are accepted"
             )
-        set_fields(self, joints=_in_order(self.joints), passive=_in_order(self.passive))
+        set_fields(self, joints=_in_order("joints", self.joints), passive=_in_order("passive", self.passive))
         both = set(self.joints) & set(self.passive)
         if both:
             raise DescriptionError(f"device {self.name}: {min(both)} is driven and passive at once")
@@ -168,8 +169,11 @@ class Device:
         """What device and body (`own` range) both allow [rad].
 
         Raises:
-            DescriptionError: They have nothing in common.
+            DescriptionError: They have nothing in common, or `own` is no pair of finite numbers.
+            UnknownNameError: The joint is unknown.
         """
+        word("joint", joint, (*JOINTS, *SLIDES, *TOES))
+        real("own", own, (2,))
         lower, upper = self.ranges.get(movement_of(joint), own)
         both = max(lower, own[0]), min(upper, own[1])
         if not both[0] < both[1]:
@@ -180,7 +184,13 @@ class Device:
 
 
 def movement_of(joint: str) -> str:
-    """A joint's name without its side: `left_knee_flexion` -> `knee_flexion`."""
+    """A joint's name without its side: `left_knee_flexion` -> `knee_flexion`; other names stay.
+
+    Raises:
+        DescriptionError: The name is no text.
+    """
+    if not isinstance(joint, str):
+        raise DescriptionError(f"joint is {joint!r}; a joint's name is accepted, e.g. 'left_knee_flexion'")
     side, _, movement = joint.partition("_")
     return movement if side in SIDES else joint
 
@@ -192,8 +202,7 @@ def both(*movements: str) -> tuple[str, ...]:
         UnknownNameError: A movement is unknown.
     """
     for movement in movements:
-        if movement not in MOVEMENTS:
-            raise UnknownNameError("movement", movement, MOVEMENTS)
+        word("movement", movement, MOVEMENTS)
     return tuple(joint for joint in JOINTS if movement_of(joint) in movements)
 
 
@@ -204,27 +213,38 @@ def subset(movements: Iterable[str], *, name: str = "subset") -> Device:
         UnknownNameError: A movement is unknown.
         DescriptionError: None is given.
     """
-    return Device(name=name, joints=both(*movements), source="A part of the 12 joints, for comparison.")
+    return Device(
+        name=name,
+        joints=both(*names("movements", movements)),
+        source="A part of the 12 joints, for comparison.",
+    )
 
 
-def _in_order(joints: Iterable[str]) -> tuple[str, ...]:
-    given = tuple(joints)
+def _in_order(name: str, joints: Iterable[str]) -> tuple[str, ...]:
+    given = names(name, joints)
     for joint in given:
-        if joint not in JOINTS:
-            raise UnknownNameError("joint", joint, JOINTS)
+        word("joint", joint, JOINTS)
     return tuple(joint for joint in JOINTS if joint in given)
 
 
 def _actuator(movement: str, given: Mapping[str, Actuator]) -> Actuator:
-    for name in given:
-        if name not in DEFAULT_ACTUATORS:
-            raise UnknownNameError("movement", name, DEFAULT_ACTUATORS)
-    effort, velocity, given_acceleration = given.get(movement, DEFAULT_ACTUATORS[movement])
-    own = DEFAULT_ACCELERATIONS[movement] if given_acceleration is None else given_acceleration
-    actuator = Actuator(float(effort), float(velocity), float(own))
-    if not (0.0 <= actuator.effort < math.inf and 0.0 < actuator.velocity < math.inf and own > 0.0):
-        raise DescriptionError(f"actuator of {movement}: {actuator} must be positive and finite")
-    return actuator
+    for name in table("actuators", given):
+        word("movement", name, DEFAULT_ACTUATORS)
+    found = given.get(movement, DEFAULT_ACTUATORS[movement])
+    if not isinstance(found, tuple) or len(found) != len(Actuator._fields):
+        raise DescriptionError(f"actuator of {movement} is {found!r}; an Actuator is accepted")
+    effort, velocity, own = found
+    return Actuator(
+        number(f"effort of {movement}", effort, least=0.0),
+        number(f"velocity of {movement}", velocity, above=0.0),
+        _acceleration(movement, own),
+    )
+
+
+def _acceleration(movement: str, own: float | None) -> float:
+    """The largest acceleration of a movement; infinite where there is no limit."""
+    found = DEFAULT_ACCELERATIONS[movement] if own is None else own
+    return math.inf if found == math.inf else number(f"acceleration of {movement}", found, above=0.0)
 
 
 _SPANS = {
@@ -241,7 +261,7 @@ _SPANS = {
 def _span(what: str, pair: tuple[float, float] | None, most: float) -> tuple[float, float] | None:
     if pair is None:
         return None
-    low, high = map(float, pair)
+    low, high = real(what, pair, (2,)).tolist()
     if not 0.0 <= low < high <= most:
         raise DescriptionError(
             f"{what} is {low:g} .. {high:g}; lower < upper, from 0 to {most:g}, is accepted"
@@ -252,10 +272,9 @@ def _span(what: str, pair: tuple[float, float] | None, most: float) -> tuple[flo
 def _checked_ranges(given: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     known = {*MOVEMENTS, *ADDED_JOINT_RANGES}
     ranges = dict(ADDED_JOINT_RANGES)
-    for name, pair in given.items():
-        if name not in known:
-            raise UnknownNameError("movement", name, sorted(known))
-        lower, upper = map(float, pair)
+    for name, pair in table("ranges", given).items():
+        word("movement", name, sorted(known))
+        lower, upper = real(f"range of {name}", pair, (2,)).tolist()
         if not -math.pi <= lower < upper <= math.pi:
             raise DescriptionError(f"range of {name}: lower < upper, within half a turn or 3 m, is accepted")
         ranges[name] = (lower, upper)

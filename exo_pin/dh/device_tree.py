@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import MOVEMENTS, SIDES, HipOrder, Side
+from exo_pin.anatomy.names import JOINTS, MOVEMENTS, SIDES, HipOrder, Side
+from exo_pin.arguments import real, table, word
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.recursion import recursion
@@ -31,7 +32,12 @@ def of_device(
     Returns:
         T_stand_link (..., 4, 4) by name of the joint that moves the link, and by `left_foot`, `right_foot`;
         slides are not among them.
+
+    Raises:
+        DescriptionError: Shapes differ, or a value is not finite.
+        UnknownNameError: A joint or the hip order is unknown.
     """
+    angles = _checked(angles)
     still = np.zeros(np.shape(next(iter(angles.values()), 0.0)))
     order = [f"{side}_{movement}" for side in SIDES for movement in chain(hip_order)]
     q = np.stack([angles.get(name, still) for name in order], axis=-1)
@@ -44,6 +50,16 @@ def of_device(
     for axis, slide in enumerate(_SLIDES):
         slid[..., axis, 3] = angles.get(slide, still)
     return {name: slid @ T for name, T in poses.items()}
+
+
+def _checked(angles: Mapping[str, Array]) -> dict[str, Array]:
+    """Values by joint name, all of one shape."""
+    found = {name: real(name, values) for name, values in table("angles", angles).items()}
+    known = (*JOINTS, *_SLIDES, *(f"{side}_toe_dorsiflexion" for side in SIDES))
+    for name, values in found.items():
+        word("joint", name, known)
+        real(name, values, next(iter(found.values())).shape)
+    return found
 
 
 def _toe(body: Body, side: Side, angle: Array) -> Array:

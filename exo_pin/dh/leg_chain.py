@@ -6,8 +6,8 @@ import numpy as np
 
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.names import HIP_ORDERS, MOVEMENTS, SIDES, HipOrder
+from exo_pin.arguments import word
 from exo_pin.arrays import Array
-from exo_pin.errors import UnknownNameError
 
 
 def chain(hip_order: HipOrder = "clinical") -> tuple[str, ...]:
@@ -16,9 +16,7 @@ def chain(hip_order: HipOrder = "clinical") -> tuple[str, ...]:
     Raises:
         UnknownNameError: The hip order is unknown.
     """
-    if hip_order not in HIP_ORDERS:
-        raise UnknownNameError("hip order", hip_order, HIP_ORDERS)
-    return (*HIP_ORDERS[hip_order], *MOVEMENTS[3:])
+    return (*HIP_ORDERS[word("hip order", hip_order, HIP_ORDERS)], *MOVEMENTS[3:])
 
 
 def soles(body: Body, poses: dict[str, Array]) -> dict[str, Array]:

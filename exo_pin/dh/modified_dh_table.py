@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import SIDES, HipOrder, Side
+from exo_pin.anatomy.names import JOINTS, SIDES, HipOrder, Side
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
@@ -99,8 +100,12 @@ def modified_dh(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical
 
     Returns:
         T_pelvis_link (..., 4, 4) by joint name, and by `left_foot` and `right_foot` on the soles.
+
+    Raises:
+        DescriptionError: The shape of q does not fit, or an angle is not finite.
+        UnknownNameError: The hip order is unknown.
     """
-    q = np.asarray(q, dtype=float)
+    q = real("q", q, (..., len(JOINTS)))
     poses: dict[str, Array] = {}
     for k, side in enumerate(SIDES):
         rows = table(body, side, hip_order=hip_order)

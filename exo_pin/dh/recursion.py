@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy.body import Body
-from exo_pin.anatomy.names import SIDES, HipOrder
+from exo_pin.anatomy.names import JOINTS, SIDES, HipOrder
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
 
@@ -62,8 +63,12 @@ def recursion(body: Body, q: npt.ArrayLike, *, hip_order: HipOrder = "clinical")
 
     Returns:
         T_pelvis_link (..., 4, 4) by joint name, and by `left_foot` and `right_foot` on the soles.
+
+    Raises:
+        DescriptionError: The shape of q does not fit, or an angle is not finite.
+        UnknownNameError: The hip order is unknown.
     """
-    q = np.asarray(q, dtype=float)
+    q = real("q", q, (..., len(JOINTS)))
     poses = {"pelvis": np.broadcast_to(np.eye(4), (*q.shape[:-1], 4, 4))}
     for column, link in enumerate(tree(body, hip_order)):
         poses[link.name] = poses[link.mother] @ joint_pose(link, q[..., column])  # Eq. 3

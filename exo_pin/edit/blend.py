@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import MOST_SAMPLES, number
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
@@ -35,8 +36,7 @@ def blended(first: Gait, second: Gait, *, share: float = 0.5) -> Gait:
     Raises:
         GaitError: One of them is not periodic, or the share is not between 0 and 1.
     """
-    if not 0 <= share <= 1:
-        raise GaitError(f"share is {share}: expected 0 (the first walk) to 1 (the second)")
+    number("share", share, least=0.0, most=1.0, error=GaitError)
     pair = _Pair.of(first, second)
     n = max(len(first), len(second))
     T = (1 - share) * first.duration + share * second.duration
@@ -77,14 +77,16 @@ def transitioned(
         A recording with events, evenly sampled.
 
     Raises:
-        GaitError: A walk is not periodic, a length is not positive, or heel strikes are too far apart.
+        GaitError: A walk is not periodic, a length is not positive or too long, or heel strikes are too far
+            apart.
     """
     pair = _Pair.of(first, second)
     T = (first.duration, second.duration)
-    over = cycles if seconds is None else 2 * seconds / sum(T)
+    number("cycles", cycles, error=GaitError)
+    over = cycles if seconds is None else 2 * number("seconds", seconds, error=GaitError) / sum(T)
+    most = MOST_SAMPLES / (3 * max(len(first), len(second)))
     for name, value, least in (("transition", over, 1e-3), ("before", before, 0.0), ("after", after, 0.0)):
-        if not (np.isfinite(value) and value >= least):
-            raise GaitError(f"{name} of {value:g} cycles: expected {least:g} or more")
+        number(f"{name} in cycles", value, least=least, most=most, error=GaitError)
     total = before + over + after
 
     def share(phase: Array) -> Array:

@@ -9,10 +9,14 @@ import numpy as np
 
 from exo_pin import signals
 from exo_pin.anatomy import JOINTS, MOVEMENTS
+from exo_pin.arguments import number, table
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.rigid_poses import nearest_pose
+
+_LONGEST_RAMP = 3600.0
+"""[s]: a longer one is a slip, and would fill the memory."""
 
 _RAMP_STEP = 0.01
 """Largest time between samples of a ramp [s]; the walk's own where that is smaller."""
@@ -31,7 +35,10 @@ def retimed(gait: Gait, *, duration: float | None = None, factor: float | None =
     """
     if (duration is None) == (factor is None):
         raise GaitError("retimed needs either a duration [s] or a factor")
-    ratio = factor if factor is not None else (duration or 0.0) / gait.duration
+    if factor is None:
+        ratio = number("duration", duration or 0.0, above=0.0, error=GaitError) / gait.duration
+    else:
+        ratio = number("factor", factor, above=0.0, error=GaitError)
     return _recorded(gait.slowed(ratio), f"retimed x{ratio:.4g}")
 
 
@@ -47,9 +54,8 @@ def scaled(gait: Gait, factors: Mapping[str, float]) -> Gait:
         GaitError: A factor is negative or not finite.
     """
     q = gait.q.copy()
-    for name, factor in factors.items():
-        if not (np.isfinite(factor) and factor >= 0):
-            raise GaitError(f"amplitude of {name} times {factor}: expected a factor of at least 0")
+    for name, factor in table("factors", factors, error=GaitError).items():
+        number(f"factor on {name}", factor, least=0.0, error=GaitError)
         columns = [k for k, joint in enumerate(JOINTS) if name in (joint, joint.partition("_")[2])]
         if not columns:
             raise UnknownNameError("joint", name, (*JOINTS, *MOVEMENTS))
@@ -95,10 +101,11 @@ def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
         stop: Duration of the stop [s].
 
     Raises:
-        GaitError: A ramp is negative, or the recording is shorter than half of both ramps.
+        GaitError: A ramp is negative or longer than an hour, or the recording is shorter than half of both
+            ramps.
     """
-    if not (start >= 0 and stop >= 0 and np.isfinite(start + stop)):
-        raise GaitError(f"ramps of {start} s and {stop} s: expected 0 or more")
+    for name, seconds in (("start", start), ("stop", stop)):
+        number(f"{name} of the ramps [s]", seconds, least=0.0, most=_LONGEST_RAMP, error=GaitError)
     need = (start + stop) / 2  # a ramp follows the walk at half the rate on average
     walk = gait
     if gait.periodic:

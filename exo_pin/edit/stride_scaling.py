@@ -10,6 +10,7 @@ import numpy as np
 from exo_pin import ik
 from exo_pin.anatomy import CORNERS, FEET, SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import number
 from exo_pin.arrays import Array, Mask
 from exo_pin.demand import ACCELERATION_LIMIT
 from exo_pin.edit.pelvis_drop import drop, smoothed
@@ -67,8 +68,7 @@ def strided(
         ConvergenceError: Some foot misses its path by more than 2 mm: the legs cannot follow it.
     """
     for name, factor in (("stride", stride), ("clearance", clearance)):
-        if not 0 <= factor <= _LARGEST_FACTOR:
-            raise GaitError(f"{name} times {factor}: 0 to {_LARGEST_FACTOR:g} is accepted")
+        number(f"factor on {name}", factor, least=0.0, most=_LARGEST_FACTOR, error=GaitError)
     if robot.base != "fixed":
         raise GaitError("strided needs a robot with a fixed base; the gait carries the pelvis's motion")
     old = robot.pelvis_poses(gait)

@@ -9,6 +9,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES, Body
 from exo_pin.anatomy.names import HipOrder, Side
+from exo_pin.arguments import number
 from exo_pin.demand import joint_demands
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
@@ -46,7 +47,9 @@ def feasible(
     Raises:
         UnknownNameError: The device is unknown.
         GaitError: The torques are at other times than the walk.
+        DescriptionError: Acceleration or gap is no finite number.
     """
+    gap = number("gap", gap)
     robot = load_robot(body, device=device, hip_order=hip_order)
     done = dataclasses.replace(robot.to_gait(robot.from_gait(gait), gait), base=gait.base)
     with contextlib.suppress(GaitError):  # without cycles the phases are unknown

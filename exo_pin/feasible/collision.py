@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio as pin
 
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 
@@ -34,7 +35,11 @@ def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:
     Args:
         robot: A device of this package; its collision shapes are capsules and boxes.
         q: Configurations (n, nq) [rad].
+
+    Raises:
+        DescriptionError: The shape of q does not fit, or a number is not finite.
     """
+    rows = real("q", q, ("n", robot.nq))
     geometry = pin.buildGeomFromUrdfString(robot.model, robot.urdf, pin.GeometryType.COLLISION)
     links = [item.name.rsplit("_", 1)[0] for item in geometry.geometryObjects]  # "left_thigh_0"
     pairs = [
@@ -43,12 +48,11 @@ def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:
     for pair in pairs:
         geometry.addCollisionPair(pin.CollisionPair(*pair))
     model, data, found = robot.model, robot.model.createData(), geometry.createData()
-    distances = np.array(
-        [_distances(model, data, geometry, found, row) for row in np.asarray(q, dtype=float)]
-    )
+    distances = np.array([_distances(model, data, geometry, found, row) for row in rows])
     worst = distances.argmin(axis=1)
-    rows = np.arange(len(distances))
-    return Nearest(distances[rows, worst], [(links[pairs[k][0]], links[pairs[k][1]]) for k in worst])
+    return Nearest(
+        distances[np.arange(len(distances)), worst], [(links[pairs[k][0]], links[pairs[k][1]]) for k in worst]
+    )
 
 
 def _distances(model: Any, data: Any, geometry: Any, found: Any, q: Array) -> list[float]:

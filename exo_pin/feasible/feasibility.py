@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.arguments import real
 from exo_pin.arrays import Mask
 from exo_pin.demand import JointDemand
 from exo_pin.devices import SLIDES
@@ -132,7 +133,11 @@ class Feasibility:
         Args:
             mask: Marked samples (n,).
             name: A joint or part; the cycle is that of the foot on its side, of the left foot if it has none.
+
+        Raises:
+            DescriptionError: The shape of the mask does not fit the walk.
         """
+        mask = real("mask", mask, (len(self.gait),)) != 0.0
         side = next((s for s in SIDES if name.startswith(s)), SIDES[0])
         share = percent(self.gait, side)[mask]
         return [p for p, (low, high) in PHASES.items() if ((share >= low) & (share < high)).any()]

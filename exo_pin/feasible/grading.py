@@ -7,9 +7,12 @@ Joints that it locks do not enter the verdict: what the feet lose by them stands
 
 from __future__ import annotations
 
+from typing import get_args
+
 from exo_pin import devices
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import FitWord, HipOrder, KneeRule, PelvisMotion
+from exo_pin.arguments import word
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
 from exo_pin.feasible.assessment import feasible
@@ -53,11 +56,13 @@ def device_walk(
         hip_order: Order of the hip axes, which have the limits.
 
     Raises:
-        UnknownNameError: The device is unknown.
+        UnknownNameError: The device, the rule for the knee or who moves the pelvis is unknown.
         GaitError: The torques are at other times than the walk.
+        DescriptionError: Acceleration or gap is no finite number.
     """
+    word("rule for the knee", knee, get_args(KneeRule))
     device = devices.find(device)
-    conditions = Conditions(pelvis or pelvis_by_default(device))
+    conditions = Conditions(pelvis_by_default(device) if pelvis is None else pelvis)
 
     def assessed(walk: Gait, tau: Torques | None) -> Feasibility:
         return feasible(

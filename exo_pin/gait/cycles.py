@@ -10,6 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.arguments import MOST_SAMPLES, count
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.gait import time_series
@@ -114,14 +115,16 @@ def cycles(gait: Gait, side: Side = "left", *, points: int = CYCLE_POINTS) -> Cy
     Args:
         gait: A walk with events.
         side: Whose heel strikes cut it.
-        points: Number of points of each cycle, both ends included.
+        points: Number of points of each cycle, both ends included: 2 to 100 000.
 
     Raises:
-        GaitError: Fewer than two heel strikes of that foot, or no stride of a walk between them.
+        GaitError: Fewer than two heel strikes of that foot, no stride of a walk between them, or too few
+            or too many points.
         UnknownNameError: There is no such side.
     """
     if side not in SIDES:
         raise UnknownNameError("side", side, SIDES)
+    points = count("points", points, 2, MOST_SAMPLES // 10, error=GaitError)
     walk, spans = unrolled(gait), strides(gait, side)
     kept = [span for span in spans if not span.why]
     if not kept:

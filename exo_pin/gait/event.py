@@ -11,6 +11,7 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.arguments import number
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
@@ -48,9 +49,8 @@ class Event:
     source: str = ""
 
     def __post_init__(self) -> None:
-        if not np.isfinite(self.time):
-            raise GaitError(f"event {self.kind} {self.side}: time is {self.time}, expected finite seconds")
-        set_fields(self, time=float(self.time))  # numpy scalars would print as np.float64(...)
+        time = number(f"event {self.kind} {self.side}: time", self.time, error=GaitError)
+        set_fields(self, time=time)  # numpy scalars would print as np.float64(...)
         for what, value, known in (("kind", self.kind, EVENT_KINDS), ("side", self.side, SIDES)):
             if value not in known:
                 choices = " or ".join(map(repr, known))

@@ -9,6 +9,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import MOST_SAMPLES, count, number
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.frozen_fields import set_fields
@@ -23,9 +24,6 @@ from exo_pin.gait.validation import (
     frozen,
     read_only,
 )
-
-_MOST_SAMPLES = 1_000_000
-"""Of a walk that is sampled anew: hours; bounds memory."""
 
 _ON_GRID = 1e-6
 """A sample this little before the recording's start, in samples, is on it."""
@@ -133,10 +131,9 @@ class Gait:
         is interpolated with them, entry by entry, and every pose is then put back on the nearest rotation.
 
         Raises:
-            GaitError: If `n` is less than 2.
+            GaitError: If `n` is less than 2, or more than a million.
         """
-        if n < 2 or n != int(n):
-            raise GaitError(f"resampled to {n} samples: a whole number from 2 on is accepted")
+        n = count("number of samples", n, 2, MOST_SAMPLES, error=GaitError)
         start, span = self.time[0], self.duration
         time = start + span * np.arange(n) / n if self.periodic else np.linspace(start, self.time[-1], n)
         return self._at(time)
@@ -150,8 +147,9 @@ class Gait:
         Raises:
             GaitError: That would be fewer than 2 samples, or more than a million.
         """
-        if not (np.isfinite(rate) and 2 <= self.duration * rate + 1 <= _MOST_SAMPLES):
-            raise GaitError(f"sampled at {rate:g} Hz: 2 to {_MOST_SAMPLES} samples are accepted")
+        rate = number("rate", rate, error=GaitError)
+        if not 2 <= self.duration * rate + 1 <= MOST_SAMPLES:
+            raise GaitError(f"sampled at {rate:g} Hz: 2 to {MOST_SAMPLES} samples are accepted")
         if self.periodic:
             return self.resampled(max(round(self.duration * rate), 2))
         first, last = np.ceil(self.time[0] * rate - _ON_GRID), np.floor(self.time[-1] * rate + _ON_GRID)
@@ -174,12 +172,11 @@ class Gait:
         """`k` cycles of a periodic gait as one longer periodic gait, events included.
 
         Raises:
-            GaitError: If the gait is not periodic or `k` is less than 1.
+            GaitError: If the gait is not periodic, `k` is less than 1, or more than a million samples result.
         """
         if not self.periodic:
             raise GaitError("a gait that is not periodic cannot be repeated: its ends do not meet")
-        if k < 1 or k != int(k):
-            raise GaitError(f"repeated {k} times: a whole number from 1 on is accepted")
+        k = count("number of cycles", k, 1, MOST_SAMPLES // len(self), error=GaitError)
         n, T = len(self), self.duration
         time = T * np.arange(k * n) / n
         base = None if self.base is None else np.tile(self.base, (k, 1, 1))
@@ -203,8 +200,7 @@ class Gait:
         Raises:
             GaitError: If `f` is not a positive finite number.
         """
-        if not (np.isfinite(f) and f > 0):
-            raise GaitError(f"slowed by {f}: expected a positive factor, e.g. 2.0 for half the speed")
+        f = number("factor", f, above=0.0, error=GaitError)
         start = float(self.time[0])
         events = (replace(event, time=start + f * (event.time - start)) for event in self.events)
         return replace(self, time=start + f * (self.time - start), events=tuple(events))

@@ -10,6 +10,8 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import MOST_SAMPLES, number, word
+from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event, between, times_of
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.stride_checks import QUICKEST_STRIDE
@@ -47,7 +49,12 @@ class StrideEstimate:
         Args:
             start: Begin of the span [s].
             end: End of the span [s].
+
+        Raises:
+            GaitError: A time is not finite, or the span holds more than a million cycles.
         """
+        number("start", start, error=GaitError)
+        number("end", end, least=start, most=start + MOST_SAMPLES * self.duration, error=GaitError)
         first, stop = (np.floor((t - self.strike) / self.duration) for t in (start, end))
         edges = self.strike + self.duration * np.arange(first, stop + 2)
         return tuple((float(a), float(b)) for a, b in pairwise(edges) if a < end)
@@ -74,7 +81,11 @@ def stride_estimate(gait: Gait, side: Side) -> StrideEstimate | None:
     Args:
         gait: A walk with events.
         side: Whose stride.
+
+    Raises:
+        UnknownNameError: There is no such side.
     """
+    word("side", side, SIDES)
     strikes = times_of(gait.events, "heel_strike", side)
     if not strikes:
         return None

@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, Body
 from exo_pin.anatomy.names import EventKind, Side, Speed
+from exo_pin.arguments import MOST_SAMPLES, count, number
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError, same_name
 from exo_pin.gait.event import Event
@@ -53,7 +54,8 @@ def normative_gait(speed: Speed = "free", *, leg_length: float | None = None, sa
     Args:
         speed: One of `SPEEDS`.
         leg_length: Hip centre to sole [m], sets stride time and pelvis height; default: the default body's.
-        samples: Number of samples in the cycle, at least 17, so that all eight harmonics are kept.
+        samples: Number of samples in the cycle, at least 17, so that all eight harmonics are kept, and at
+            most a million.
 
     Returns:
         A periodic gait with base and events. The stride time is 2 / (c sqrt(g / leg_length)), with c the
@@ -61,14 +63,15 @@ def normative_gait(speed: Speed = "free", *, leg_length: float | None = None, sa
 
     Raises:
         UnknownNameError: If there is no such speed.
-        GaitError: If the leg length is implausible or there are too few samples.
+        GaitError: If the leg length is implausible or there are too few or too many samples.
     """
     speed = speed_named(speed)
-    length = Body.from_stature().leg_length if leg_length is None else leg_length
+    length = Body.from_stature().leg_length
+    if leg_length is not None:
+        length = number("leg_length", leg_length, error=GaitError)
     if not _LEG_LENGTHS[0] <= length <= _LEG_LENGTHS[1]:
         raise GaitError(f"leg_length = {length} m: expected {_LEG_LENGTHS[0]} to {_LEG_LENGTHS[1]} m")
-    if samples != int(samples) or samples <= 2 * MEAN_HARMONICS:
-        raise GaitError(f"samples = {samples}: a whole number from {2 * MEAN_HARMONICS + 1} on is accepted")
+    samples = count("samples", samples, 2 * MEAN_HARMONICS + 1, MOST_SAMPLES, error=GaitError)
     stride = 2 / (TIMING[speed]["cadence"] * math.sqrt(GRAVITY / length))
     phase = np.arange(samples) / samples
     return Gait(
@@ -97,11 +100,10 @@ def normative_sd(speed: Speed = "free", *, samples: int = 100) -> Array:
 
     Raises:
         UnknownNameError: If there is no such speed.
-        GaitError: If there is no sample.
+        GaitError: If there is no sample, or more than a million.
     """
     speed = speed_named(speed)
-    if samples < 1:
-        raise GaitError(f"samples = {samples}: at least 1 is accepted")
+    samples = count("samples", samples, 1, MOST_SAMPLES, error=GaitError)
     curves = {**SD_ANGLES[speed], "ankle_inversion": SD_ANKLE_INVERSION}
     phase = np.arange(samples) / samples
     legs = [_series(curves[movement], phase - late) for late in (0.0, 0.5) for movement in MOVEMENTS]

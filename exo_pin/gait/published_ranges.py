@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exo_pin.arguments import number, table
+from exo_pin.errors import GaitError
 from exo_pin.gait.spatiotemporal import Number
 from exo_pin.physics import GRAVITY
 
@@ -87,7 +89,15 @@ def normal(numbers: Mapping[str, Number], *, leg_length: float, stature: float =
         numbers: Of `exo_pin.gait.spatiotemporal`.
         leg_length: Hip centre to sole [m]; NaN where it is unknown: then only speed has a range.
         stature: Height of the person [m], which separates children from adults; NaN: taken for an adult.
+
+    Raises:
+        GaitError: A length is no number, or `numbers` holds something else than a `Number`.
     """
+    if not all(isinstance(one, Number) for one in table("numbers", numbers, error=GaitError).values()):
+        raise GaitError("numbers holds something that is no Number; those of `spatiotemporal` are accepted")
+    for name, length in (("leg_length", leg_length), ("stature", stature)):
+        if not (isinstance(length, float) and math.isnan(length)):
+            number(name, length, error=GaitError)
     known = {"speed": _chosen_speed(stature)}
     if leg_length > 0:
         known["step_width"] = _spread(*_STEP_WIDTH, leg_length, "m", _SCHULZ)
@@ -105,6 +115,9 @@ def against_normal(
         numbers: Of `exo_pin.gait.spatiotemporal`.
         leg_length: Hip centre to sole [m], or NaN.
         stature: Height of the person [m], or NaN.
+
+    Raises:
+        GaitError: As in `normal`.
     """
     verdicts = {}
     for name, norm in normal(numbers, leg_length=leg_length, stature=stature).items():

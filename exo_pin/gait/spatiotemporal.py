@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.arguments import number, real
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import SAME_TIME, Event, between, flat_times
@@ -41,8 +43,14 @@ class Number(NamedTuple):
 
     @staticmethod
     def of(values: ArrayLike, unit: str) -> Number:
-        """The measure over its single values, one or more."""
-        x = np.asarray(values, dtype=float)
+        """The measure over its single values, one or more.
+
+        Raises:
+            GaitError: There is none, or one is not finite.
+        """
+        x = real("values", values, ("n",), error=GaitError)
+        if not len(x):
+            raise GaitError("a measure needs one value at least")
         sd = float(x.std(ddof=1)) if len(x) > 1 else float("nan")
         return Number(float(x.mean()), sd, len(x), unit)
 
@@ -81,8 +89,10 @@ def spatiotemporal(
     Raises:
         GaitError: No foot with two heel strikes, or unusable arrays.
     """
-    t, p = frozen(time, "time"), np.array(heels, dtype=float)
+    t, p = frozen(time, "time"), real("heels", heels, gaps=True, error=GaitError).copy()
     check_time(t, periodic=False)
+    if until != math.inf:
+        number("until", until, error=GaitError)
     if p.ndim != 3 or p.shape[:2] != (len(t), 2) or p.shape[2] not in (2, 3):
         raise GaitError(f"heels have shape {p.shape}, expected ({len(t)}, 2, 3)")
     walk = _Walk(t, p, events)
@@ -91,7 +101,8 @@ def spatiotemporal(
     if not spans:
         raise GaitError("no gait cycles found: no foot strikes the ground twice")
     counted = [span for span in spans if span.start < until - SAME_TIME]
-    ground = _ground(walk, None if pelvis is None else frozen(pelvis, "pelvis"))
+    way = None if pelvis is None else real("pelvis", pelvis, (len(t), 2), error=GaitError)
+    ground = _ground(walk, way)
     length = np.array([np.linalg.norm(_path(walk, span, ground)) for span in counted])
     duration = np.array([span.duration for span in counted])
     measures = {

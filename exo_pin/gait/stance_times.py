@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.anatomy.names import SIDES, EventKind, Side
+from exo_pin.arguments import word
 from exo_pin.gait.gait import Gait
 
 
@@ -14,7 +15,11 @@ def stance_times(gait: Gait, side: Side) -> tuple[tuple[float, float], ...]:
     The events need not alternate: a contact is a heel strike followed by a toe-off. A recording's first
     toe-off ends a contact that began before the recording, and its last heel strike begins one that lasts
     to its end. In a periodic gait contacts continue across the end of the cycle; they are cut there.
+
+    Raises:
+        UnknownNameError: There is no such side.
     """
+    word("side", side, SIDES)
     start = float(gait.time[0])
     mine: list[tuple[float, EventKind]] = [(e.time - start, e.kind) for e in gait.events if e.side == side]
     if not mine:

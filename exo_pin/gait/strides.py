@@ -10,6 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import word
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import EVENT_KINDS, SAME_TIME, between, times_of
@@ -64,7 +65,11 @@ def strides(gait: Gait, side: Side) -> tuple[Stride, ...]:
     Args:
         gait: A walk with events; one that repeats has as many strides as strikes, followed around its end.
         side: Whose heel strikes.
+
+    Raises:
+        UnknownNameError: There is no such side.
     """
+    word("side", side, SIDES)
     if gait.periodic:
         first = gait.duration - SAME_TIME
         return tuple(span for span in strides(unrolled(gait), side) if span.start < first)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.frozen_fields import set_fields
@@ -60,9 +61,9 @@ class Torques:
         """Torques `(m, 12)` at times `(m,)`, linear between samples; NaN outside them [N m].
 
         Raises:
-            GaitError: None of the times lies within the samples: the two clocks differ.
+            GaitError: None of the times lies within the samples: the two clocks differ; or one is not finite.
         """
-        times = np.asarray(time, dtype=float)
+        times = real("time", time, ("m",), error=GaitError)
         rounding = 1e-6 + 1e-3 * float(np.diff(self.time).min())  # files round their times
         inside = (times >= self.time[0] - rounding) & (times <= self.time[-1] + rounding)
         if not inside.any():

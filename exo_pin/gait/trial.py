@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy.names import Vertical
+from exo_pin.arguments import names, real, table
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
@@ -50,6 +51,7 @@ class ForcePlate:
     def __post_init__(self) -> None:
         vectors = {"force": self.force, "point": self.point, "moment": self.moment}
         set_fields(self, time=frozen(self.time, f"{self.name}: time"))
+        real(f"{self.name}: time", self.time, ("m",), error=GaitError)
         for name, values in vectors.items():
             kept = frozen(values, f"{self.name}: {name}")
             if kept.shape != (len(self.time), 3):
@@ -111,12 +113,13 @@ class Markers:
     unit: str = ""
 
     def __post_init__(self) -> None:
+        angles = table("angles", self.angles, error=GaitError)
         set_fields(
             self,
             time=frozen(self.time, "time"),
-            names=tuple(self.names),
+            names=names("names", self.names, error=GaitError),
             position=frozen(self.position, "position"),
-            angles=MappingProxyType({name: frozen(values, name) for name, values in self.angles.items()}),
+            angles=MappingProxyType({name: frozen(values, name) for name, values in angles.items()}),
         )
         if self.time.shape != (1,):  # a standing trial may be one frame
             check_time(self.time, periodic=False)
@@ -155,7 +158,10 @@ class Markers:
 
         Raises:
             UnknownNameError: There is no marker of a name in `mapping`.
+            GaitError: A new name is no text.
         """
+        if not all(isinstance(name, str) for name in table("mapping", mapping, error=GaitError).values()):
+            raise GaitError("mapping holds something that is no name; names of markers are accepted")
         for name in mapping:
             if name not in self.names:
                 raise UnknownNameError("marker", name, self.names)
@@ -165,8 +171,12 @@ class Markers:
         return replace(self, names=names, position=self.position[:, kept])
 
     def turned(self, R: ArrayLike) -> Markers:
-        """The same trial in other axes: every vector times `R (3, 3)`; z is up then."""
-        R = np.asarray(R, dtype=float)
+        """The same trial in other axes: every vector times `R (3, 3)`; z is up then.
+
+        Raises:
+            GaitError: R is no array of finite numbers of that shape.
+        """
+        R = real("R", R, (3, 3), error=GaitError)
         plates = tuple(
             ForcePlate(p.name, p.time, p.force @ R.T, p.point @ R.T, p.moment @ R.T) for p in self.plates
         )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, as_floats
 from exo_pin.errors import GaitError
 from exo_pin.gait import rigid_poses
 from exo_pin.gait.event import SAME_TIME, Event
@@ -33,11 +33,11 @@ def read_only(array: Array) -> Array:
 
 
 def frozen(values: ArrayLike, name: str) -> Array:
-    """A read-only copy as floats; raises `GaitError` if it cannot be one."""
+    """A read-only copy of real numbers; raises `GaitError` if they are none."""
     try:
-        return read_only(np.array(values, dtype=np.float64))
-    except (TypeError, ValueError) as error:
-        raise GaitError(f"{name} is not an array of numbers: {error}") from error
+        return read_only(np.array(as_floats(values)))
+    except (TypeError, ValueError):
+        raise GaitError(f"{name} is not an array of real numbers") from None
 
 
 def duration(time: Array, periodic: bool) -> float:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
+from exo_pin.arguments import number
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
@@ -92,6 +93,7 @@ def candidates(
     """
     t = frozen(time, "time")
     check_time(t, periodic)
+    number("smallest_excursion", smallest_excursion, least=0.0, error=GaitError)
     curves: dict[EventKind, Array] = {
         "heel_strike": frozen(heel_forward, "heel_forward"),
         "toe_off": -frozen(toe_forward, "toe_forward"),

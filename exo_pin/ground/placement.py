@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from exo_pin.anatomy import CORNERS, FEET, SIDES, Body
 from exo_pin.anatomy.names import SupportStyle
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.devices import TOES
 from exo_pin.gait import Gait
@@ -90,7 +91,12 @@ def place(
 
     Raises:
         UnknownNameError: There is no such style.
+        DescriptionError: A shape does not fit the walk's n samples, or a number is not finite.
     """
+    n = len(gait)
+    q, base = real("q", q, (n, "J")), real("base", base, (n, 4, 4))
+    T_pelvis = real("T_pelvis", T_pelvis, (n, len(FEET) + len(CORNERS), 4, 4))
+    com_pelvis = real("com_pelvis", com_pelvis, (n, 3))
     corners = (base[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = stance_from_events(gait)
     stance = known or estimated_stance(gait, lowest_corners(corners))

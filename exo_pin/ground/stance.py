@@ -8,6 +8,7 @@ import numpy as np
 
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import real, table, word
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, stance_times
@@ -37,13 +38,21 @@ def estimated_stance(gait: Gait, heights: Mapping[Side, Array]) -> Intervals:
     Args:
         gait: The walk that the heights belong to, sample by sample.
         heights: Side -> `(n,)` height of the sole's lowest corner [m].
+
+    Raises:
+        UnknownNameError: A side is missing.
+        DescriptionError: The shape of a height does not fit the walk, or a number is not finite.
     """
+    for side in SIDES:
+        word("side of heights", side, table("heights", heights))
+    heights = {side: real(f"heights of {side}", heights[side], (len(gait),)) for side in SIDES}
     lowest = np.minimum(*(heights[side] for side in SIDES))
     return {side: _runs(gait, heights[side] <= lowest + _NEAR_GROUND) for side in SIDES}
 
 
 def lowest_corners(positions: Array) -> dict[Side, Array]:
     """Side -> `(n,)` lowest height, from the positions `(n, 8, 3)` of `CORNERS` [m]."""
+    positions = real("positions", positions, ("n", len(CORNERS), 3))
     mine = {side: [k for k, name in enumerate(CORNERS) if name.startswith(side)] for side in SIDES}
     return {side: positions[:, mine[side], 2].min(axis=1) for side in SIDES}
 
@@ -58,7 +67,13 @@ def standing(intervals: Intervals, side: Side, time: Array) -> Mask:
 
     Returns:
         `(n,)` contact.
+
+    Raises:
+        UnknownNameError: There is no such side.
+        DescriptionError: A time is not finite.
     """
+    word("side", side, SIDES)
+    time = real("time", time, ("n",))
     inside = np.zeros(len(time), dtype=bool)
     moment = time + SAME_TIME  # an event that is meant to lie on a sample may miss it by rounding
     for start, end in intervals[side]:

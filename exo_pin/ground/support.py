@@ -15,8 +15,8 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import SupportStyle
+from exo_pin.arguments import real, word
 from exo_pin.arrays import Array
-from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.gait.time_series import low_harmonics
 from exo_pin.ground.misfit import ahead, in_mm, misfit
@@ -84,9 +84,10 @@ def support(
 
     Raises:
         UnknownNameError: There is no such style.
+        DescriptionError: A shape does not fit the walk's n samples, or a number is not finite.
     """
-    if style not in STYLES:
-        raise UnknownNameError("support", style, STYLES)
+    word("support", style, STYLES)
+    base, corners = real("base", base, (len(gait), 4, 4)), real("corners", corners, (len(gait), 8, 3))
     overground = _goes_through_the_room(base)
     shift, motion = STYLES[style](gait, corners, stance, overground)
     shown, feet = base.copy(), corners + shift[:, None]
@@ -104,7 +105,11 @@ def belt_speed(gait: Gait, base: Array, corners: Array) -> float:
         gait: The walk.
         base: `(n, 4, 4)` pose of the pelvis.
         corners: `(n, 8, 3)` positions of `CORNERS` with that base, or shifted by a path that comes back [m].
+
+    Raises:
+        DescriptionError: A shape does not fit the walk's n samples, or a number is not finite.
     """
+    base, corners = real("base", base, (len(gait), 4, 4)), real("corners", corners, (len(gait), 8, 3))
     if _goes_through_the_room(base):
         return 0.0
     return max(-float(_bearing_velocity(gait, corners)[:, 0].mean()), 0.0)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
+from exo_pin.arguments import count, names, number, real
 from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.least_squares.nearest_posture import NearestPosture, bare_legs
@@ -22,6 +23,7 @@ from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 from exo_pin.robot.subtree import frame_index
 
+_MOST_STEPS = 1_000_000  # damped steps for a sample: beyond, a number is a slip
 _asarray, _forward_kinematics = np.asarray, pin.framesForwardKinematics  # found once: an inner loop
 
 
@@ -67,14 +69,17 @@ class Online:
             DescriptionError: A frame is not on a leg of six joints, two are on one leg, or a number is wrong.
             UnknownNameError: A frame is unknown.
         """
+        frames = names("frames", frames)
+        number("tolerance", tolerance, above=0.0)
+        count("max_iterations", max_iterations, 1, _MOST_STEPS)
+        if dt is not None:
+            number("dt", dt, above=0.0)
         self._robot = robot
-        self._options = {"frames": tuple(frames), "tolerance": tolerance, "dt": dt, "base": base}
+        self._options = {"frames": frames, "tolerance": tolerance, "dt": dt, "base": base}
         self._options["max_iterations"] = max_iterations
         self._tolerance = tolerance  # of the distance between matrices, never less than the angle
-        self.q = robot.neutral if q0 is None else np.array(q0, dtype=float)
-        if self.q.shape != (robot.nq,):
-            raise DescriptionError(f"q0 has shape {self.q.shape}; ({robot.nq},) is accepted")
-        self.q = robot.unit_quaternion(self.q)
+        start = robot.neutral if q0 is None else real("q0", q0, (robot.nq,)).copy()
+        self.q = robot.unit_quaternion(start)
         axes = [_own_leg(robot, name) for name in frames]
         self._legs = [_Leg(own, robot, tolerance / 4, max_iterations, dt) for own in axes]
         self._formulas = [leg.exact for leg in self._legs if leg.exact is not None]

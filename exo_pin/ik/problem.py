@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.arrays import Array, Index, as_floats, beside, filled, to_host
+from exo_pin.arguments import real
+from exo_pin.arrays import Array, Index, beside, filled, to_host
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.result import Track
 from exo_pin.ik.targets import Goal, Target, check, pose_array
@@ -144,7 +145,7 @@ def problem(
 
 
 def _base(base: npt.ArrayLike) -> Array:
-    T = as_floats(base)
+    T = real("base", base)
     if T.shape != (4, 4):
         return pose_array("base", T)
     one: Array = pose_array("base", T[None])[0]
@@ -156,11 +157,9 @@ def _start(
 ) -> tuple[Array, Array]:
     """Configuration of the joints that move no target, and seed: mid-range where there is no q0."""
     if q0 is not None:
-        q = to_host(as_floats(q0))
+        q = to_host(real("q0", q0))
         if q.shape not in ((robot.nq,), (n, robot.nq)):
             raise DescriptionError(f"q0 has shape {q.shape}; ({robot.nq},) or ({n}, {robot.nq}) is accepted")
-        if not np.isfinite(q).all():
-            raise DescriptionError("q0 holds NaN or infinity")
         q = robot.unit_quaternion(q)
         return q, q
     rest = robot.neutral

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
-from exo_pin.errors import DescriptionError
+from exo_pin.arguments import count, number
+
+_MOST_STEPS = 1_000_000
+"""Of an iteration, and of its further seeds: beyond, a number is a slip."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,12 +38,12 @@ class Dls:
     rotation_weight: float = 1.0
 
     def __post_init__(self) -> None:
-        _positive("Dls.tolerance", self.tolerance)
-        _positive("Dls.max_iterations", self.max_iterations)
-        _positive("Dls.position_weight", self.position_weight)
-        _positive("Dls.rotation_weight", self.rotation_weight)
-        _not_negative("Dls.restarts", self.restarts)
-        _not_negative("Dls.damping", self.damping)
+        number("Dls.tolerance", self.tolerance, above=0.0)
+        count("Dls.max_iterations", self.max_iterations, 1, _MOST_STEPS)
+        number("Dls.position_weight", self.position_weight, above=0.0)
+        number("Dls.rotation_weight", self.rotation_weight, above=0.0)
+        count("Dls.restarts", self.restarts, 0, _MOST_STEPS)
+        number("Dls.damping", self.damping, least=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +60,7 @@ class Auto:
     dls: Dls = field(default_factory=Dls)
 
     def __post_init__(self) -> None:
-        _positive("Auto.tolerance", self.tolerance)
+        number("Auto.tolerance", self.tolerance, above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,17 +74,7 @@ class ClosedForm:
     tolerance: float = 1e-9
 
     def __post_init__(self) -> None:
-        _positive("ClosedForm.tolerance", self.tolerance)
+        number("ClosedForm.tolerance", self.tolerance, above=0.0)
 
 
 Settings = Auto | ClosedForm | Dls
-
-
-def _positive(name: str, value: float) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise DescriptionError(f"{name} is {value}; it must be positive")
-
-
-def _not_negative(name: str, value: float) -> None:
-    if not (math.isfinite(value) and value >= 0):
-        raise DescriptionError(f"{name} is {value}; it must not be negative")

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from exo_pin.arrays import as_floats, to_host
+from exo_pin.arguments import real, table
+from exo_pin.arrays import to_host
 from exo_pin.errors import ConvergenceError, DescriptionError, UnknownNameError
 from exo_pin.ik.least_squares import dls
 from exo_pin.ik.leg import batch
@@ -18,7 +19,7 @@ from exo_pin.ik.problem import Problem, SolutionBuffer, problem
 from exo_pin.ik.remote import copied_back, on_host, remote_array, stays_remote
 from exo_pin.ik.result import Solution, Track
 from exo_pin.ik.settings import Auto, ClosedForm, Dls, Settings
-from exo_pin.ik.targets import Points, Pose, Position, Target
+from exo_pin.ik.targets import Points, Pose, Position, Target, target_numbers
 from exo_pin.robot import Robot, Subtree
 
 Solver = Callable[[Problem, Any], Track]
@@ -54,11 +55,11 @@ def track(
         UnknownNameError: A frame is unknown.
         DescriptionError: A shape, number or matrix is wrong; the message names the target and the sample.
     """
-    solver, like = _solver(settings), remote_array(targets)
+    solver, like = _solver(settings), remote_array(table("targets", targets))
     base_moves = robot.base == "floating" and base is None
     if like is None or (stays_remote(robot, targets, settings) and not base_moves):
         return solver(problem(robot, targets, q0, base), settings)
-    held = None if base is None else to_host(as_floats(base))
+    held = None if base is None else to_host(real("base", base))
     return copied_back(solver(problem(robot, on_host(targets), q0, held), settings), like)
 
 
@@ -84,7 +85,7 @@ def solve(
         UnknownNameError: A frame is unknown.
         DescriptionError: A shape, number or matrix is wrong.
     """
-    one = {frame: _one(target) for frame, target in targets.items()}
+    one = {frame: _one(frame, target) for frame, target in table("targets", targets).items()}
     answer = track(robot, one, q0, base=base, settings=settings)[0]
     if not answer.converged:
         raise ConvergenceError(_miss(answer), answer)
@@ -168,12 +169,13 @@ def _solver(settings: Settings) -> Solver:
     return SOLVERS[type(settings)]
 
 
-def _one(target: Target) -> Target:
+def _one(frame: str, target: Target) -> Target:
+    """The target of one sample as that of a track of one."""
     if isinstance(target, Pose):
-        return replace(target, T=np.asarray(target.T)[None])
+        return replace(target, T=target_numbers(frame, target.T)[None])
     if isinstance(target, (Position, Points)):
-        return replace(target, p=np.asarray(target.p)[None])
-    return np.asarray(target)[None]
+        return replace(target, p=target_numbers(frame, target.p)[None])
+    return target_numbers(frame, target)[None]
 
 
 def _miss(answer: Solution) -> str:

@@ -9,6 +9,7 @@ from math import isfinite
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin.arguments import number, real, table
 from exo_pin.arrays import Array, Index, as_floats, beside, is_remote
 from exo_pin.chunks import for_chunks
 from exo_pin.errors import DescriptionError
@@ -104,7 +105,7 @@ def check(robot: Robot, targets: Mapping[str, Target], carry: Array | None) -> t
         UnknownNameError: A frame is unknown.
         DescriptionError: A shape does not fit, a number is not finite, a matrix is not a pose.
     """
-    if not targets:
+    if not table("targets", targets):
         raise DescriptionError("no target was given; name at least one frame")
     goals = []
     for frame, target in targets.items():
@@ -127,7 +128,7 @@ def pose_array(name: str, T: npt.ArrayLike) -> Array:
     Raises:
         DescriptionError: Names what the poses belong to and the first sample that is wrong.
     """
-    T = _numbers(name, T)
+    T = target_numbers(name, T)
     if T.ndim != 3 or T.shape[1:] != (4, 4):
         raise DescriptionError(f"{name}: poses have shape {T.shape}; (n, 4, 4) is accepted")
     worst: list[float] = []
@@ -188,7 +189,7 @@ def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
     if isinstance(target, Points):
         return _points(frame, target, carry)
     if isinstance(target, Position):
-        p = _numbers(frame, target.p)
+        p = target_numbers(frame, target.p)
         if p.ndim != 2 or p.shape[1] != 3:
             raise DescriptionError(f"{frame}: positions have shape {p.shape}; (n, 3) is accepted")
         _finite(frame, p)
@@ -205,7 +206,7 @@ def _goal(frame: str, target: Target, carry: Array | None) -> Goal:
 
 
 def _points(frame: str, target: Points, carry: Array | None) -> Goal:
-    local, p = _numbers(frame, target.local), _numbers(frame, target.p)
+    local, p = target_numbers(frame, target.local), target_numbers(frame, target.p)
     if local.ndim != 2 or local.shape[1] != 3 or p.ndim != 3 or p.shape[1:] != local.shape:
         raise DescriptionError(
             f"{frame}: points have shapes {local.shape} and {p.shape}; (k, 3) and (n, k, 3) are accepted"
@@ -213,18 +214,24 @@ def _points(frame: str, target: Points, carry: Array | None) -> Goal:
     _finite(f"{frame} (local)", local)
     seen = np.asarray(~np.isnan(p).any(axis=2))
     _finite(frame, np.where(seen[..., None], p, 0.0))
-    weight = np.broadcast_to(_numbers(frame, target.weight), (len(local),))
-    if not (np.isfinite(weight) & (weight >= 0)).all():
-        raise DescriptionError(f"{frame}: weights must be finite and not negative, not {weight}")
+    given = real(f"{frame}: weight", target.weight)
+    if given.shape not in ((), (len(local),)) or (given < 0.0).any():
+        raise DescriptionError(f"{frame}: one weight or {len(local)}, none negative, are accepted")
+    weight = np.broadcast_to(given, (len(local),))
     p = _carried(frame, np.where(seen[..., None], p, 0.0), carry)
     return Goal(frame, local, p, None, weight * seen, 0.0)
 
 
-def _numbers(name: str, values: npt.ArrayLike) -> Array:
+def target_numbers(name: str, values: npt.ArrayLike) -> Array:
+    """Real numbers, which may hold gaps.
+
+    Raises:
+        DescriptionError: They are none; names the frame.
+    """
     try:
         return as_floats(values)
     except (TypeError, ValueError):
-        raise DescriptionError(f"{name}: the target is not an array of numbers") from None
+        raise DescriptionError(f"{name}: the target is not an array of real numbers") from None
 
 
 def _finite(name: str, values: Array) -> None:
@@ -236,9 +243,7 @@ def _finite(name: str, values: Array) -> None:
 
 
 def _weight(frame: str, weight: float) -> float:
-    if not (np.isfinite(weight) and weight >= 0):
-        raise DescriptionError(f"{frame}: a weight must be finite and not negative, not {weight}")
-    return float(weight)
+    return number(f"{frame}: a weight", weight, least=0.0)
 
 
 def _fits(frame: str, carry: Array, T: Array) -> Array:

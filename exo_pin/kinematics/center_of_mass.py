@@ -45,7 +45,7 @@ def center_of_mass(
         base: T_world_pelvis as in `exo_pin.kinematics.poses`.
 
     Raises:
-        DescriptionError: A shape does not fit.
+        DescriptionError: A shape does not fit, or a number is not finite.
     """
     rows, shape = samples(robot, q)
     still = np.zeros((*shape, robot.model.nv))

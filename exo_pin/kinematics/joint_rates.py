@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin import signals
+from exo_pin.arguments import number
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, time_series
@@ -39,7 +40,12 @@ def joint_rates(robot: Robot, gait: Gait, *, cutoff: float | None) -> JointRates
         robot: The robot.
         gait: The walk.
         cutoff: Low-pass before a recording is differentiated [Hz]; None: no filter.
+
+    Raises:
+        GaitError: The cut-off is no positive number.
     """
+    if cutoff is not None:
+        number("cutoff", cutoff, above=0.0, error=GaitError)
     q = robot.angles(robot.from_gait(gait))
     if gait.periodic:
         how = "Derivatives of the walk's Fourier series; not filtered."

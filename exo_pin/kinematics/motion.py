@@ -15,6 +15,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
+from exo_pin.arguments import names, real
 from exo_pin.arrays import Array, as_floats, beside, is_remote
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot, leg_forward
@@ -36,7 +37,7 @@ def poses(
 
     Raises:
         UnknownNameError: A frame is unknown.
-        DescriptionError: The shape of q or base does not fit.
+        DescriptionError: The shape of q or base does not fit, or a number is not finite.
     """
     if is_remote(q):
         return _remote_poses(robot, as_floats(q), frames, base)
@@ -92,7 +93,7 @@ def velocities(
 
     Raises:
         UnknownNameError: A frame is unknown.
-        DescriptionError: The shape of q, dq or base does not fit.
+        DescriptionError: The shape of q, dq or base does not fit, or a number is not finite.
     """
     rows, shape = samples(robot, q)
     speeds = rates(robot, dq, shape, "dq")
@@ -128,7 +129,8 @@ def accelerations(
 
     Raises:
         UnknownNameError: A frame is unknown.
-        DescriptionError: The shape of q, dq, ddq or base does not fit.
+        DescriptionError: The shape of q, dq, ddq or base does not fit, or a number is
+            not finite.
     """
     rows, shape = samples(robot, q)
     speeds, changes = rates(robot, dq, shape, "dq"), rates(robot, ddq, shape, "ddq")
@@ -151,7 +153,7 @@ def jacobian(robot: Robot, q: npt.ArrayLike, frame: str, *, base: npt.ArrayLike 
 
     Raises:
         UnknownNameError: The frame is unknown.
-        DescriptionError: The shape of q or base does not fit.
+        DescriptionError: The shape of q or base does not fit, or a number is not finite.
     """
     index = robot.frame(frame)
     data = robot.model.createData()
@@ -177,6 +179,7 @@ def attitude(robot: Robot, q: npt.ArrayLike, frame: str, *, relative_to: str) ->
 
     Raises:
         UnknownNameError: A frame is unknown.
+        DescriptionError: The shape of q does not fit, or a number is not finite.
     """
     R = poses(robot, q, (relative_to, frame))[..., :3, :3]
     return np.asarray(np.swapaxes(R[..., 0, :, :], -1, -2) @ R[..., 1, :, :])
@@ -186,10 +189,11 @@ def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
     """Configurations as rows (n, nq) and the shape in front, checked, their quaternions of length 1.
 
     Raises:
-        DescriptionError: The last axis is not nq, or the quaternion of a floating base is zero.
+        DescriptionError: The last axis is not nq, a number is not finite, or the quaternion of a floating
+            base is zero.
     """
-    q = np.asarray(q, dtype=float)
-    shape = robot.angles(q).shape[:-1]
+    q = robot.configurations(q)
+    shape = q.shape[:-1]
     return robot.unit_quaternion(q.reshape(-1, robot.nq)), shape
 
 
@@ -203,12 +207,9 @@ def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str
         name: Name of the argument in messages.
 
     Raises:
-        DescriptionError: The shape does not fit.
+        DescriptionError: The shape does not fit that of q, or a number is not finite.
     """
-    values = np.asarray(values, dtype=float)
-    if values.shape != (*shape, robot.model.nv):
-        raise DescriptionError(f"{name} has shape {values.shape}; {(*shape, robot.model.nv)} fits q")
-    return values.reshape(-1, robot.model.nv)
+    return real(name, values, (*shape, robot.model.nv)).reshape(-1, robot.model.nv)
 
 
 def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
@@ -220,11 +221,12 @@ def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
         shape: Shape (...) of the samples of q.
 
     Raises:
-        DescriptionError: The shape does not fit, or the robot's base floats and stands in q already.
+        DescriptionError: The shape does not fit, a number is not finite, or the robot's base floats and
+            stands in q already.
     """
     if robot.base == "floating":
         raise DescriptionError("the base of a floating robot stands in q; base= is for base='fixed'")
-    base = as_floats(base)
+    base = real("base", base)
     if base.shape not in ((4, 4), (*shape, 4, 4)):
         raise DescriptionError(f"base has shape {base.shape}; (4, 4) or {(*shape, 4, 4)} is accepted")
     T: Array = base @ beside(np.linalg.inv(robot.placement), base)
@@ -232,9 +234,7 @@ def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
 
 
 def _indices(robot: Robot, frames: Sequence[str]) -> list[int]:
-    if isinstance(frames, str):
-        raise DescriptionError(f"frames is {frames!r}; a sequence of names is accepted, e.g. ({frames!r},)")
-    return [robot.frame(name) for name in frames]
+    return [robot.frame(name) for name in names("frames", frames)]
 
 
 def _spatial(

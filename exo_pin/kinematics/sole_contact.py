@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
+from exo_pin.arguments import number
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
@@ -68,7 +69,11 @@ def contacts(
         base: T_world_pelvis as in `exo_pin.kinematics.poses`.
         ground: Height of the ground [m].
         tolerance: Corners up to this height touch [m].
+
+    Raises:
+        DescriptionError: The shape of q or base does not fit, or a number is not finite.
     """
+    ground, tolerance = number("ground", ground), number("tolerance", tolerance)
     position = poses(robot, q, CORNERS, base=base)[..., :3, 3]
     height = position[..., 2] - ground
     touching = height <= tolerance

@@ -9,6 +9,7 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import real
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.gait.event import flat_times
@@ -111,7 +112,13 @@ def sole_slide(time: Array, points: Array, standing: Mask, ground: Array) -> Sol
         points: `(n, 2, 2, 3)` left and right foot: heel and ball, x forward, z up [m].
         standing: `(n, 2)` which foot is to be measured.
         ground: `(2,)` velocity of the ground, x and y [m/s].
+
+    Raises:
+        DescriptionError: A shape does not fit, or a number is not finite.
     """
+    time, ground = real("time", time, ("n",)), real("ground", ground, (2,))
+    points = real("points", points, (len(time), 2, 2, 3))
+    standing = real("standing", standing, (len(time), 2)) != 0.0
     heights = points[..., 2]
     touching = standing[..., None] & (heights <= heights.min(axis=2, keepdims=True) + TOUCH_HEIGHT)
     places = _over_ground(time, points, ground)

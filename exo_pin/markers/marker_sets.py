@@ -26,6 +26,8 @@ def find_set(name: str) -> MarkerSet:
         FormatError: The file is not accepted.
         UnknownNameError: There is no such set.
     """
+    if not isinstance(name, str):
+        raise UnknownNameError("marker set", name, SETS)
     if name.lower().endswith(".toml"):
         return load_set(Path(name))
     for entry in SETS.values():

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Segment
+from exo_pin.arguments import names as as_names
 from exo_pin.errors import GaitError
 from exo_pin.markers.marker_sets import SETS
 from exo_pin.markers.spots import MarkerSet, plain
@@ -75,7 +76,7 @@ def recognise(names: Iterable[str], chosen: MarkerSet | None = None) -> Recognis
     Raises:
         GaitError: Too few markers to determine every segment; the message says which.
     """
-    given = list(names)
+    given = list(as_names("names", names, error=GaitError))
     candidates = SETS.values() if chosen is None else [chosen]
     matches = [(entry, _matched(entry, spelling)) for entry in candidates for spelling in _spellings(given)]
     best, own = max(matches, key=lambda match: _merit(*match))

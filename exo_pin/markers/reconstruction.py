@@ -7,13 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from exo_pin import signals
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import Sex, Vertical
+from exo_pin.arguments import number, word
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError
 from exo_pin.formats import Markers, TrialFile, load_markers
@@ -147,6 +148,9 @@ def reconstruct(
         GaitError: Markers are missing, or never seen; the message says which.
         UnknownNameError: There is no such marker set.
     """
+    word("sex", sex, get_args(Sex))
+    if mass is not None:
+        number("mass", mass, above=0.0, error=GaitError)
     if len(trial) < 2:
         raise GaitError("one frame is a posture, no walk; it can be the standing trial (--static) of another")
     known = find_set(markers) if isinstance(markers, str) else markers

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -12,9 +12,10 @@ import pinocchio as pin
 
 from exo_pin import description, devices, xacro_files
 from exo_pin.anatomy import Body
-from exo_pin.anatomy.names import Base, HipOrder, Masses
+from exo_pin.anatomy.names import HIP_ORDERS, Base, HipOrder, Masses
+from exo_pin.arguments import real, word
 from exo_pin.arrays import Array
-from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
+from exo_pin.errors import DescriptionError, FormatError
 from exo_pin.files import read_text
 from exo_pin.robot import urdf_joints, urdf_parser
 from exo_pin.robot.model import Robot
@@ -77,10 +78,12 @@ def load_urdf(
 
     Raises:
         DescriptionError: The file cannot be read or is no URDF that Pinocchio accepts, or the limits of a
-            joint are wrong.
+            joint or the placement are wrong.
+        UnknownNameError: Base or hip order is unknown.
     """
-    if base not in ("fixed", "floating"):
-        raise UnknownNameError("base", base, ("fixed", "floating"))
+    word("base", base, get_args(Base))
+    word("hip order", hip_order, HIP_ORDERS)
+    stand = np.eye(4) if placement is None else real("placement", placement, (4, 4)).copy()
     text = _text(source)
     if path is None and text is not source:
         path = source
@@ -93,7 +96,6 @@ def load_urdf(
     for name in names:
         if model.joints[model.getJointId(name)].nq != 1:
             raise DescriptionError(f"joint {name!r} is not revolute or prismatic")
-    stand = np.eye(4) if placement is None else np.array(placement, dtype=float)
     if base == "fixed":
         _place(model, pin.SE3(stand))
     k = len(names)

@@ -16,9 +16,10 @@ import pinocchio as pin
 
 from exo_pin.anatomy import JOINTS, Body
 from exo_pin.anatomy.names import Base, HipOrder, Masses
-from exo_pin.arrays import Array, Mask, as_floats
+from exo_pin.arguments import names, number, real, table
+from exo_pin.arrays import Array, Mask
 from exo_pin.devices import SLIDES, Device
-from exo_pin.errors import DescriptionError, LimitError, UnknownNameError
+from exo_pin.errors import LimitError, UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses, unit_quaternion
 from exo_pin.robot.gait_columns import gait_columns, in_hip_order
@@ -103,7 +104,7 @@ class Robot:
         Raises:
             UnknownNameError: Nothing has that name.
         """
-        index = frame_index(self.model, name)
+        index = frame_index(self.model, name) if isinstance(name, str) else self.model.nframes
         if index == self.model.nframes:
             raise UnknownNameError("frame", name, (*self.frames, *self.joints))
         return index
@@ -113,10 +114,11 @@ class Robot:
 
         Raises:
             UnknownNameError: A joint is unknown.
+            DescriptionError: An angle is no finite number.
         """
         q = self.neutral
-        for name, angle in angles.items():
-            q[self.column(name)] = angle
+        for name, angle in table("angles", angles).items():
+            q[self.column(name)] = number(name, angle)
         return q
 
     def column(self, joint: str) -> int:
@@ -133,26 +135,42 @@ class Robot:
         """The joint angles (..., J) of configurations (..., nq), in the order of `joints`.
 
         Raises:
-            DescriptionError: The last axis does not fit.
+            DescriptionError: The last axis does not fit, or an angle is no finite number.
         """
-        q = as_floats(q)
-        if q.ndim == 0 or q.shape[-1] != self.nq:
-            raise DescriptionError(
-                f"q has shape {q.shape}; (..., {self.nq}) is accepted, in the order of Robot.joints"
-            )
-        return q[..., self.nq - len(self.joints) :]
+        return self.configurations(q)[..., self.nq - len(self.joints) :]
+
+    def configurations(self, q: npt.ArrayLike, *, gaps: bool = False) -> Array:
+        """Configurations (..., nq) as numbers, checked.
+
+        Args:
+            q: What was given, in the order of `joints`.
+            gaps: Whether NaN is accepted.
+
+        Raises:
+            DescriptionError: The last axis does not fit, or a number is not finite.
+        """
+        return real("q", q, (..., self.nq), gaps=gaps)
 
     def unit_quaternion(self, q: Array) -> Array:
         """Configurations (..., nq) whose floating base has a quaternion of length 1, where they are not yet.
 
         Raises:
-            DescriptionError: A quaternion is zero: it is no attitude.
+            DescriptionError: A quaternion is zero: it is no attitude; or q is no configuration.
         """
+        q = self.configurations(q)
         return q if self.base == "fixed" else unit_quaternion(q)
 
     def outside(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> Mask:
-        """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits."""
-        angles = self.angles(q)
+        """Which joints (..., J) of configurations (..., nq) lie more than `tolerance` beyond limits.
+
+        Args:
+            q: One configuration or many.
+            tolerance: Allowed excess [rad].
+
+        Raises:
+            DescriptionError: A number is not finite, or the last axis does not fit.
+        """
+        angles, tolerance = self.angles(q), number("tolerance", tolerance)
         return np.asarray(~((angles >= self.lower - tolerance) & (angles <= self.upper + tolerance)))
 
     def check_limits(self, q: npt.ArrayLike, *, tolerance: float = LIMIT_TOLERANCE) -> None:
@@ -164,8 +182,11 @@ class Robot:
 
         Raises:
             LimitError: Names the joint that is furthest outside.
+            DescriptionError: The last axis does not fit, or a number is infinite.
         """
-        angles = self.angles(q).reshape(-1, len(self.joints))
+        number("tolerance", tolerance)
+        joints = self.configurations(q, gaps=True)[..., self.nq - len(self.joints) :]
+        angles = joints.reshape(-1, len(self.joints))
         excess = np.maximum(angles - self.upper, self.lower - angles)
         excess[np.isnan(excess)] = np.inf  # not a number is outside every limit
         if not len(excess) or excess.max() <= tolerance:
@@ -182,7 +203,7 @@ class Robot:
         Raises:
             UnknownNameError: The frame is unknown.
         """
-        if frame not in self._legs:
+        if not isinstance(frame, str) or frame not in self._legs:
             joints = sorted(self._joints_above(frame, base_moves=False))
             self._legs[frame] = read_leg(self.model, frame, self.frame(frame), joints, self.neutral)
         return self._legs[frame]
@@ -197,7 +218,7 @@ class Robot:
         Raises:
             UnknownNameError: A frame is unknown.
         """
-        key = tuple(frames), base_moves
+        key = names("frames", frames), base_moves
         if key not in self._subtrees:
             joints = set().union(*(self._joints_above(name, base_moves=base_moves) for name in frames))
             floating = self.base == "floating" and 1 in joints
@@ -208,7 +229,7 @@ class Robot:
 
     def subtrees(self, frames: Sequence[str], *, base_moves: bool = False) -> tuple[Subtree, ...]:
         """One subtree for each group of frames that share joints; arguments as for `subtree`."""
-        key = tuple(frames), base_moves
+        key = names("frames", frames), base_moves
         if key not in self._groups:
             joints = {name: self._joints_above(name, base_moves=base_moves) for name in frames}
             groups = independent_groups(joints)
@@ -246,8 +267,11 @@ class Robot:
         Args:
             q: Configurations (n, nq) [rad, m].
             like: Gives time, events and, for a held pelvis, the base.
+
+        Raises:
+            DescriptionError: The shape of q does not fit, or a number is not finite.
         """
-        q = np.asarray(q, dtype=float)
+        q = real("q", q, (len(like), self.nq))
         base = like.base
         if self.base == "floating":
             base = base_poses(unit_quaternion(q))
@@ -260,8 +284,12 @@ class Robot:
         return dataclasses.replace(like, q=clinical, base=base)
 
     def slid(self, q: npt.ArrayLike) -> Array:
-        """T_stand_pelvis (..., 4, 4): where the slides of q (..., nq) have carried the pelvis."""
-        q = np.asarray(q, dtype=float)
+        """T_stand_pelvis (..., 4, 4): where the slides of q (..., nq) have carried the pelvis.
+
+        Raises:
+            DescriptionError: The shape of q does not fit, or a number is not finite.
+        """
+        q = self.configurations(q)
         T = np.tile(np.eye(4), (*q.shape[:-1], 1, 1))
         for axis, slide in enumerate(SLIDES):
             if slide in self.joints:

@@ -9,9 +9,10 @@ from exo_pin import devices as known
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.human import usual_mass
 from exo_pin.anatomy.names import Sex, SignPreset, Speed
+from exo_pin.arguments import number, several, word
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
-from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
+from exo_pin.errors import DescriptionError, FormatError
 from exo_pin.formats import FORMATS, MARKER_FORMATS
 from exo_pin.gait import SPEEDS
 from exo_pin.study.case import Case
@@ -45,6 +46,8 @@ def statures(
     Raises:
         DescriptionError: They are not in order, or more than 1000.
     """
+    for name, value in (("low", low), ("high", high), ("step", step)):
+        number(name, value, above=0.0)
     if not (0 < low <= high and step > 0 and (high - low) / step < _MOST_STATURES):
         raise DescriptionError(
             f"statures from {low:g} to {high:g} m in steps of {step:g} m: low <= high, a step above 0 and at "
@@ -77,10 +80,10 @@ def plan(
         UnknownNameError: A speed, device or sex is unknown.
         DescriptionError: A body is not plausible.
     """
-    speeds, parts = tuple(speeds), _parts(conditions, devices)
-    for speed in speeds:
-        if speed not in SPEEDS:
-            raise UnknownNameError("speed", speed, SPEEDS)
+    speeds, parts = (
+        tuple(word("speed", speed, SPEEDS) for speed in several("speeds", speeds)),
+        _parts(conditions, devices),
+    )
     code = code_digest()
     return [
         Case(gait=speed, body=body, parts=parts, code=code)
@@ -96,10 +99,14 @@ def bodies(of: Iterable[float], *, mass: float | None = None, sex: Sex = "male")
         of: Their statures [m].
         mass: Of each [kg]; by `exo_pin.anatomy.human.usual_mass` if left out.
         sex: Of each.
+
+    Raises:
+        UnknownNameError: The sex is unknown.
+        DescriptionError: A body is not plausible.
     """
     return [
         Body.from_stature(stature, mass=round(usual_mass(stature), 3) if mass is None else mass, sex=sex)
-        for stature in of
+        for stature in several("of", of)
     ]
 
 
@@ -153,7 +160,7 @@ def _parts(
     Raises:
         DescriptionError: The list is empty, or two devices have the same name.
     """
-    found = tuple(map(known.find, devices))
+    found = tuple(map(known.find, several("devices", devices)))
     names = [device.name for device in found]
     if len(set(names)) < len(names) or not names:
         given = ", ".join(names) or "none"

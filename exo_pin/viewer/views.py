@@ -10,6 +10,7 @@ from typing import Any
 
 from exo_pin.anatomy import FEET
 from exo_pin.anatomy.names import SupportStyle
+from exo_pin.arguments import count
 from exo_pin.gait import Gait, Torques
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
@@ -18,6 +19,7 @@ from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
 from exo_pin.viewer.scenes.scene import Scene
 from exo_pin.viewer.scenes.staging import SceneOptions
 
+_TALLEST = 100_000  # pixels of a frame
 _LEFT_OUT = "Reference curves and torques belong to the exoskeleton; they are not shown on another robot."
 
 
@@ -138,5 +140,10 @@ def view(robot: Robot, gait: Gait, *, height: int = 640, **options: Any) -> View
         gait: The walk.
         height: Of the frame [px].
         **options: Further options of `viewer.scene`, e.g. `reference=` or `torques=`.
+
+    Raises:
+        DescriptionError: The height is no whole number of pixels from 1 to 100 000, or as in `scene`.
+        ExoPinError: As in `scene`.
     """
+    height = count("height", height, 1, _TALLEST)
     return View(html(scene(robot, gait, **options)), height)

@@ -60,7 +60,7 @@ def test_amplitudes_are_scaled_about_the_mean_on_one_or_both_sides(walk):
         assert changed.q[:, k].mean() == pytest.approx(walk.q[:, k].mean())
     with pytest.raises(UnknownNameError, match="did you mean 'knee_flexion'"):
         edit.scaled(walk, {"knee_flexoin": 1.0})
-    with pytest.raises(GaitError, match="at least 0"):
+    with pytest.raises(GaitError, match="from 0 on"):
         edit.scaled(walk, {"knee_flexion": -1.0})
 
 
@@ -116,7 +116,7 @@ def test_a_recording_shorter_than_its_ramps_is_refused(walk):
     short = Gait(walk.time[:20], walk.q[:20])
     with pytest.raises(GaitError, match="ramps of 2 s and 2 s need 2 s"):
         edit.ramped(short)
-    with pytest.raises(GaitError, match="expected 0 or more"):
+    with pytest.raises(GaitError, match="from 0 to 3600"):
         edit.ramped(short, start=-1)
 
 
@@ -315,7 +315,7 @@ def test_a_transition_needs_repeating_walks_and_a_length(walk):
     with pytest.raises(GaitError, match="only periodic"):
         edit.transitioned(walk, recording(walk))
     for wrong in ({"cycles": 0}, {"seconds": -1.0}, {"before": -1.0}, {"cycles": float("nan")}):
-        with pytest.raises(GaitError, match="expected"):
+        with pytest.raises(GaitError, match="is accepted"):
             edit.transitioned(walk, walk, **wrong)
 
 

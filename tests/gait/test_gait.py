@@ -84,7 +84,7 @@ def test_unusable_times_are_refused_with_the_frame():
     refused("frame 1 is nan", time=[0, np.nan, 1])
     refused("from frame 1 .* to frame 2", time=[0, 1, 1])
     refused("frame 2 is 1e\\+300", time=[0, 1, 1e300])
-    refused("not an array of numbers", time=["a", "b"])
+    refused("not an array of real numbers", time=["a", "b"])
     refused("shape", time=np.zeros((3, 2)))
 
 
@@ -228,7 +228,7 @@ def test_a_sampled_cycle_still_repeats_and_absurd_rates_are_refused(cycle):
     assert again.periodic
     assert len(again) == round(100 * cycle.duration)
     for rate in (0, -1, np.nan, 1e12, 0.1):
-        with pytest.raises(GaitError, match="sampled at"):
+        with pytest.raises(GaitError, match=r"sampled at|rate is"):
             cycle.sampled(rate)
 
 
@@ -260,7 +260,7 @@ def test_a_repeated_cycle_is_the_same_walk_for_longer(cycle):
     np.testing.assert_allclose(three.dq[80:], cycle.dq, atol=SPECTRAL)
     assert len(three.events) == 3 * len(cycle.events)
     np.testing.assert_array_equal(three.stance("right")[80:], cycle.stance("right"))
-    with pytest.raises(GaitError, match="from 1 on"):
+    with pytest.raises(GaitError, match="from 1 to"):
         cycle.repeated(0)
 
 
@@ -296,9 +296,9 @@ def test_slowing_stretches_time_and_divides_velocities(f):
 
 def test_impossible_factors_are_refused(cycle):
     for f in (0, -1, np.nan, np.inf):
-        with pytest.raises(GaitError, match="positive factor"):
+        with pytest.raises(GaitError, match="above 0"):
             cycle.slowed(f)
-    with pytest.raises(GaitError, match="from 2 on"):
+    with pytest.raises(GaitError, match="from 2 to"):
         cycle.resampled(1)
 
 

@@ -216,7 +216,7 @@ def test_impossible_requests_are_refused():
         normative_sd("veryfast")
     with pytest.raises(GaitError, match="samples"):
         normative_sd(samples=0)
-    with pytest.raises(GaitError, match="from 17 on"):
+    with pytest.raises(GaitError, match="from 17 to"):
         normative_gait(samples=16)
     for length in (93.0, 0.0, float("nan")):
         with pytest.raises(GaitError, match="leg_length"):

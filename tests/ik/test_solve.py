@@ -197,7 +197,7 @@ def test_wrong_shapes_and_names_are_refused(robot, settings):
         ik.track(robot, {"left_foot": np.tile(T, (2, 1, 1))}, base=base, settings=settings)
     with pytest.raises(UnknownNameError, match="left_foot"):
         ik.track(robot, {"left_fot": T[None]}, settings=settings)
-    with pytest.raises(DescriptionError, match="not an array of numbers"):
+    with pytest.raises(DescriptionError, match="not an array of real numbers"):
         ik.track(robot, {"left_foot": "here"}, settings=settings)
     with pytest.raises(DescriptionError, match="no target"):
         ik.track(robot, {}, settings=settings)

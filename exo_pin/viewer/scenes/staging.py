@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exo_pin.anatomy.names import SupportStyle
+from exo_pin.arguments import number, word
 from exo_pin.gait import Gait
-from exo_pin.ground import PlacedWalk
+from exo_pin.ground import STYLES, PlacedWalk
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes.actor import Actor, Mount
 from exo_pin.viewer.scenes.joint_plots import Tab
@@ -25,6 +26,10 @@ class SceneOptions:
         compare_title: What the ghost is.
         notes: Sentences to print under the plots.
         speed: Playback speed at first; 1 is as it happened.
+
+    Raises:
+        UnknownNameError: There is no such support.
+        DescriptionError: The speed is no positive number.
     """
 
     title: str = ""
@@ -33,6 +38,10 @@ class SceneOptions:
     compare_title: str = "compared"
     notes: tuple[str, ...] = ()
     speed: float = 1.0
+
+    def __post_init__(self) -> None:
+        word("support", self.support, STYLES)
+        number("speed", self.speed, above=0.0)
 
 
 @dataclass(frozen=True, eq=False)
