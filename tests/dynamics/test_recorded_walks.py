@@ -52,6 +52,7 @@ def test_over_ground_frames_beside_the_plates_are_not_valid_and_the_rest_is_open
     mine = dynamics.torques(over_ground.robot, over_ground.walk, forces=over_ground.plates)
     assert 100 < mine.valid.sum() < len(over_ground.walk)
     assert any("a foot stands on no plate" in remark for remark in mine.remarks)
+    assert not mine.valid[-1]  # the foot that has struck beside the plates still stands at the last sample
     theirs = by_opensim(opensim, shared.parent / "trials" / "lai_arnold_walk", over_ground.walk, tmp_path)
     for movement, most in (("hip_flexion", 0.08), ("knee_flexion", 0.08), ("ankle_dorsiflexion", 0.05)):
         for side in ("left", "right"):
