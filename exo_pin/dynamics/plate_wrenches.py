@@ -15,7 +15,6 @@ from exo_pin.dynamics.plate_checks import check_both_feet, check_plates, check_p
 from exo_pin.dynamics.plate_clock import check_event_times
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
-from exo_pin.gait.event import SAME_TIME
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.ground import estimated_stance, lowest_corners, stance_from_events, standing
 from exo_pin.kinematics import PlateStep, events, poses
@@ -26,6 +25,9 @@ from exo_pin.robot import Robot
 _EDGE = 0.05
 """A foot that stands this little [s] before or after its plate is loaded is not standing beside it: events of
 kinematics are that uncertain."""
+
+_BEFORE_END = 1e-6
+"""The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
 
 _NOBODY = "no foot is there"
 """Why a contact belongs to no foot, where nothing under the feet can be missing because of it."""
@@ -110,7 +112,7 @@ def _standing_feet(robot: Robot, gait: Gait, steps: Sequence[PlateStep], corners
     walk = merged_events(gait, gait.events or moving, measured)
     stance = stance_from_events(walk) or estimated_stance(gait, lowest_corners(corners))
     time = gait.time - gait.time[0]
-    time = np.minimum(time, time[-1] - SAME_TIME)  # intervals that reach the end hold at the last sample too
+    time = np.minimum(time, time[-1] - _BEFORE_END)
     return np.stack([standing(stance, side, time) for side in SIDES], axis=1)
 
 
