@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -20,8 +21,22 @@ from exo_pin.simulation.reference_motion import ReferenceMotion
 from exo_pin.simulation.time_limit import time_limit
 
 _FREE = 6
+
 _FASTEST = 50.0
 """A joint that is faster diverges [rad/s]."""
+
+
+@contextlib.contextmanager
+def _no_log() -> Iterator[None]:
+    """MuJoCo writes no file of its warnings into the working folder: the loop reads them from the state."""
+    import mujoco
+
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda message: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 class Loop:
@@ -92,11 +107,11 @@ class Loop:
             DescriptionError: The controller's answer cannot be used.
         """
         record = self._record
-        with time_limit() as progress:
+        with time_limit() as progress, _no_log():
             for k in range(len(self._walk.time)):
                 why = self._step(k)
                 if why:
-                    record.cut(k)
+                    record.cut(max(k, 1))
                     return record, why
                 progress.steps = k + 1
                 after(k)

@@ -121,6 +121,22 @@ def test_the_free_pelvis_of_a_clinical_walk_falls(exo):
     assert run.verdict.word in ("falls", "diverges")
 
 
+class Wild:
+    """A servo of the wrong sign."""
+
+    def __call__(self, time, q, dq, reference):
+        return 1e5 * (q - reference.q) + 1e3 * dq
+
+
+def test_a_run_that_diverges_ends_at_its_last_good_time_and_leaves_no_file(exo, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run = simulate(exo, normative_gait(), Wild(), cycles=2, plant=Plant(limits=False))
+    assert run.verdict.word == "diverges"
+    assert 0 < len(run.time) < 1000
+    assert np.isfinite(run.q).all()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_run_is_a_gait_again(free):
     gait = free.to_gait()
     assert isinstance(gait, Gait)
