@@ -1,6 +1,7 @@
 """Files of motion laboratories: joint angles, markers, torques and force plates, each read once."""
 
 from exo_pin.formats.loading import (
+    TORQUE_SUFFIXES,
     is_markers,
     knee_preset,
     load_forces,
@@ -8,6 +9,7 @@ from exo_pin.formats.loading import (
     load_markers,
     load_torques,
     save_gait,
+    save_torques,
 )
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, Format, open_trial
@@ -20,6 +22,7 @@ __all__ = [
     "FORMATS",
     "MARKER_FORMATS",
     "PRESETS",
+    "TORQUE_SUFFIXES",
     "Content",
     "ForcePlate",
     "Format",
@@ -37,4 +40,5 @@ __all__ = [
     "open_trial",
     "save_gait",
     "save_poses",
+    "save_torques",
 ]

@@ -10,17 +10,20 @@ from typing import TypeVar
 
 from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
 from exo_pin.errors import FormatError
-from exo_pin.formats.opensim import StorageFile, write_gait
+from exo_pin.formats.opensim import StorageFile, write_gait, write_torques
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, find_format, open_trial, written_format
 from exo_pin.formats.sign_presets import OPENSIM_PRESETS, find_preset
-from exo_pin.formats.tables import TABLE_SUFFIXES
+from exo_pin.formats.tables import TABLE_SUFFIXES, write_csv_torques
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 from exo_pin.gait.even_clock import even_clock, evened_remark, within
 from exo_pin.gait.sampling import doubtful_unit, missing_samples
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
+
+TORQUE_SUFFIXES = (".csv", ".sto", ".mot")
+"""Endings of files of joint torques that are written."""
 
 _Record = TypeVar("_Record", Gait, Markers)
 
@@ -88,11 +91,12 @@ def load_torques(
 ) -> Torques:
     """Read joint torques; the signs become this package's: positive drives the joint the way its name says.
 
-    - `.sto`, `.mot`: OpenSim's inverse dynamics, columns `<coordinate>_moment` [N m]. A generalised force is
-      positive along its coordinate, so only the sign of a knee that is negative in flexion changes; the file
-      does not name its model, so a preset must.
+    - `.sto`, `.mot`: OpenSim's inverse dynamics, columns `<coordinate>_moment` [N m], NaN where unknown. A
+      generalised force is positive along its coordinate, so only the sign of a knee that is negative in
+      flexion changes; the file does not name its model, so a preset must (files of `save_torques` do).
     - `.c3d`: Plug-in Gait's moments of hip, knee and ankle (no inversion) [N mm/kg], times the person's mass.
-    - `.csv`: a column `time_s` and columns `<joint>_torque_nm` [N m], as many joints as are known.
+    - `.csv`: a column `time_s` and columns `<joint>_torque_nm` [N m], as many joints as are known; a cell is
+      empty where a torque is not known.
 
     Args:
         path: The file, or one that `open_trial` has read.
@@ -165,6 +169,30 @@ def save_gait(gait: Gait, path: str | Path, *, preset: SignPreset | None = None)
     write = written_format(path).write
     assert write is not None  # the formats that cannot be written are left out
     write(gait, path)
+
+
+def save_torques(torques: Torques, path: str | Path, *, preset: SignPreset | None = None) -> None:
+    """Write joint torques to a .csv, .sto or .mot file that `load_torques` reads; all or nothing.
+
+    Args:
+        torques: The torques; what is not known is an empty cell (.csv) or NaN (.sto, .mot).
+        path: The file.
+        preset: Of a .sto or .mot file: the model family it is for, as in `save_gait`.
+
+    Raises:
+        FormatError: The ending is another, has no choice of preset, or the file cannot be written.
+        UnknownNameError: There is no such preset of OpenSim's models.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in TORQUE_SUFFIXES:
+        raise FormatError(path, f"torques are written to {', '.join(TORQUE_SUFFIXES)}")
+    if suffix != ".csv":
+        write_torques(torques, path, preset=find_preset(preset or "opensim-rajagopal", OPENSIM_PRESETS))
+    elif preset is not None:
+        raise FormatError(path, "only .mot and .sto files are written for a model's preset")
+    else:
+        write_csv_torques(torques, path)
 
 
 def _on_even_clock(path: Path, record: _Record) -> _Record:

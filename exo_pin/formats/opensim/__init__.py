@@ -1,7 +1,15 @@
 """OpenSim files: coordinates, inverse dynamics and ground reaction forces (.mot, .sto), models (.osim)."""
 
 from exo_pin.formats.opensim.coordinate_csv import is_coordinate_csv, open_coordinate_csv
+from exo_pin.formats.opensim.inverse_dynamics import write_torques
 from exo_pin.formats.opensim.motion_writer import write_gait
 from exo_pin.formats.opensim.storage_file import StorageFile, open_storage
 
-__all__ = ["StorageFile", "is_coordinate_csv", "open_coordinate_csv", "open_storage", "write_gait"]
+__all__ = [
+    "StorageFile",
+    "is_coordinate_csv",
+    "open_coordinate_csv",
+    "open_storage",
+    "write_gait",
+    "write_torques",
+]

@@ -9,6 +9,7 @@ from exo_pin.formats.tables.table_file import (
     write_csv_gait,
     write_tsv_gait,
 )
+from exo_pin.formats.tables.torque_table import write_csv_torques
 
 __all__ = [
     "TABLE_SUFFIXES",
@@ -19,5 +20,6 @@ __all__ = [
     "open_tsv",
     "save_poses",
     "write_csv_gait",
+    "write_csv_torques",
     "write_tsv_gait",
 ]

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError
 from exo_pin.files import write_text
@@ -45,6 +47,7 @@ def parse_csv(
     groups: Mapping[str, Sequence[str]],
     *,
     separator: str = ",",
+    empty: bool = False,
 ) -> CsvTable:
     """Parse a table whose columns are known by name; their order is free.
 
@@ -54,6 +57,7 @@ def parse_csv(
         required: Columns that must be there.
         groups: Columns that come all together or not at all, by the group's name.
         separator: A comma or a tab.
+        empty: Whether a cell may be empty; it becomes NaN. A written `nan` is refused all the same.
 
     Raises:
         FormatError: For anything but such a table, with the line and what was expected.
@@ -73,14 +77,25 @@ def parse_csv(
     present = tuple(group for group, columns in groups.items() if set(columns) & set(names))
     for group in present:
         check_columns(path, names, groups[group], line=start + 1)
-    table = parse(path, names, lines[start + 1 :], first=start + 2, delimiter=separator)
+    rows = lines[start + 1 :]
+    gaps = empty and not any("nan" in row.lower() for row in rows)
+    if gaps:
+        rows = [_with_nan(row, separator) for row in rows]
+    table = parse(path, names, rows, first=start + 2, delimiter=separator, gaps=gaps)
     return CsvTable(table, present, comments_in(lines[:start]))
+
+
+def _with_nan(row: str, separator: str) -> str:
+    """A row with NaN for each empty cell; an empty row stays one."""
+    if not row.strip():
+        return row
+    return separator.join(cell if cell.strip() else "nan" for cell in row.split(separator))
 
 
 def write_csv(
     path: Path, title: str, metadata: Metadata, names: Iterable[str], values: Array, *, separator: str = ","
 ) -> None:
-    """Write a title for people, the metadata, the header and the rows.
+    """Write a title for people, the metadata, the header and the rows; a cell of NaN is empty.
 
     Args:
         path: The file.
@@ -94,6 +109,8 @@ def write_csv(
         FormatError: The file cannot be written.
     """
     rows = rows_of_text(values, separator)
+    if np.isnan(values).any():
+        rows = [separator.join("" if x == "nan" else x for x in row.split(separator)) for row in rows]
     write_text(path, "\n".join([f"# {title}", *comment_lines(metadata), separator.join(names), *rows, ""]))
 
 
