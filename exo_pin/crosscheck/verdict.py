@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,8 +14,9 @@ from exo_pin.crosscheck.dynamics_witnesses import DYNAMICS_TOLERANCE, inverse_dy
 from exo_pin.crosscheck.recovery import ANGLE_TOLERANCE, IK_TOLERANCE, Recovery, recover
 from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 from exo_pin.demand import RangeDemand, range_demands
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import Robot
+from exo_pin.simulation import simulate
 
 _ITERATED = 1000  # samples that the slower iterative solver repeats
 _RANDOM = 1000  # random configurations in the forward check
@@ -30,8 +32,8 @@ class Check:
         limits: By joint, its angles against its range [rad].
         agreement: Largest difference between the angles of closed form and iterative solver [rad], over
             comparable angles (`Recovery.comparable`) of the first 1000 samples.
-        dynamics: Largest relative difference of inverse dynamics to Pinocchio, by witness; empty where it was
-            not checked.
+        dynamics: Largest relative difference of dynamics to Pinocchio, by witness: inverse dynamics, and as
+            `"simulation"` the accelerations of a simulated cycle; empty where it was not checked.
     """
 
     fk: dict[str, float]
@@ -116,7 +118,7 @@ def check(robot: Robot, gait: Gait, *, seed: int = 0, dynamics: bool = False) ->
         robot: A robot made from a `Body`.
         gait: The walk.
         seed: Of the random configurations that the forward check adds to the gait's own.
-        dynamics: Whether inverse dynamics are checked too, on random states.
+        dynamics: Whether dynamics are checked too: inverse on random states, forward on a simulated cycle.
 
     Raises:
         DescriptionError: The seed is no whole number from 0 on, or the robot is none of this package's.
@@ -130,8 +132,15 @@ def check(robot: Robot, gait: Gait, *, seed: int = 0, dynamics: bool = False) ->
         recovery,
         range_demands(robot, robot.from_gait(gait)),
         _agreement(robot, gait, recovery),
-        inverse_dynamics(robot, seed=seed) if dynamics else {},
+        inverse_dynamics(robot, seed=seed) | _simulated(robot) if dynamics else {},
     )
+
+
+def _simulated(robot: Robot) -> dict[str, float]:
+    """MuJoCo's accelerations over one cycle of the normal walk by torques, against Pinocchio's."""
+    if importlib.util.find_spec("mujoco") is None:
+        return {}
+    return {"simulation": simulate(robot, normative_gait(), cycles=1).witness}
 
 
 def _agreement(robot: Robot, gait: Gait, recovery: Recovery) -> float:

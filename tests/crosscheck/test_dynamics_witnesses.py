@@ -66,3 +66,10 @@ def test_the_masses_of_the_wearer_alone_are_checked_as_they_are(robot):
 def test_a_urdf_from_elsewhere_has_no_witness(robot):
     with pytest.raises(DescriptionError, match="load_robot"):
         crosscheck.inverse_dynamics(load_urdf(robot.urdf))
+
+
+def test_the_check_of_dynamics_covers_a_simulated_cycle(robot, gait):
+    pytest.importorskip("mujoco")
+    found = crosscheck.check(robot, gait.resampled(20), dynamics=True)
+    assert found.dynamics["simulation"] <= crosscheck.DYNAMICS_TOLERANCE
+    assert found.dynamics_ok

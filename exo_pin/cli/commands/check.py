@@ -15,7 +15,7 @@ _EXAMPLES = """examples:
   exo-pin check                      the normal walk at free speed
   exo-pin check walk.mot --stature 1.82
   exo-pin check fast --json > check.json
-  exo-pin check --dynamics           inverse dynamics four ways too, on 1000 random states
+  exo-pin check --dynamics           dynamics too: inverse four ways, forward in a simulation
   exo-pin check --device lokomat     all ways of forward kinematics on another device
 
 exit code 0: everything agrees and the device fits, perhaps with a concession (knee held at its stop, a slower
@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--dynamics",
         action="store_true",
-        help="check inverse dynamics too: recursion, MuJoCo, OpenSim (if installed)",
+        help="check dynamics too: inverse by recursion, MuJoCo, OpenSim (if installed); a simulated cycle",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
@@ -70,7 +70,9 @@ def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
 
     recovery, track = verdict.recovery, verdict.recovery.track
     titles = {"recursion": "the paper's recursion", "dh": "modified D-H table", "yourdfpy": "yourdfpy"}
-    titles |= {"mujoco": "MuJoCo", "opensim": "OpenSim"}
+    ways = titles | {"mujoco": "MuJoCo", "opensim": "OpenSim"}
+    ways = {name: f"inverse dynamics: {way}" for name, way in ways.items()}
+    ways["simulation"] = "forward dynamics: MuJoCo's simulation of a cycle"
     rows = [
         [f"{titles[name]} against Pinocchio", f"{difference:.1e}", _mark(difference <= FK_TOLERANCE)]
         for name, difference in verdict.fk.items()
@@ -85,7 +87,7 @@ def _print(verdict: Check, found: DeviceWalk, name: str) -> None:
     ]
     rows += [
         [
-            f"inverse dynamics: {titles[name]} against Pinocchio, relative",
+            f"{ways[name]} against Pinocchio, relative",
             f"{difference:.1e}",
             _mark(difference <= DYNAMICS_TOLERANCE),
         ]
@@ -112,7 +114,7 @@ def _mark(ok: bool) -> str:
 
 def _why(verdict: Check) -> str:
     reasons = [
-        (verdict.dynamics_ok, "inverse dynamics disagree"),
+        (verdict.dynamics_ok, "dynamics disagree"),
         (verdict.fk_ok, "forward kinematics disagree"),
         (verdict.ik_ok, "inverse kinematics missed frames within the limits"),
         (verdict.angles_ok, "recovered angles differ from the given ones, or the two methods disagree"),
