@@ -69,8 +69,8 @@ def _instead(names: tuple[str, ...]) -> str:
     """What a table without joint coordinates holds."""
     if any(re.search(r"force|moment|torque", name, re.IGNORECASE) and "/" not in name for name in names):
         return (
-            "holds forces or moments; expected joint coordinates (inverse kinematics); ground reaction "
-            "forces go beside a walk, --forces FILE"
+            "holds forces or moments; expected joint coordinates (inverse kinematics); such a file goes "
+            "beside a walk, --forces FILE or --torques FILE"
         )
     shown = ", ".join(name[:40] for name in names[:_SHOWN]) + " ..." * (len(names) > _SHOWN)
     return f"missing coordinates: none of hip_flexion_r, knee_angle_r ... (columns: {shown})"
