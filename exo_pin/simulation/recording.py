@@ -7,7 +7,11 @@ import numpy as np
 from exo_pin.anatomy import CORNERS, JOINTS
 from exo_pin.arrays import Array, Index
 
-_MOST_CONTACTS = len(CORNERS)
+MOST_CONTACTS = len(CORNERS)
+"""Every sole corner touches the floor once."""
+
+Columns = slice | Index
+"""Some of the columns of an array."""
 
 
 class Recording:
@@ -32,7 +36,7 @@ class Recording:
         force: `(N, 8, 3)` force of the floor in that frame [N].
     """
 
-    def __init__(self, steps: int, nq: int, nv: int, columns: Index) -> None:
+    def __init__(self, steps: int, nq: int, nv: int, columns: Columns) -> None:
         joints = len(JOINTS)
         self.columns = columns
         self.qpos, self.qvel = np.zeros((steps, nq)), np.zeros((steps, nv))
@@ -42,9 +46,9 @@ class Recording:
         self.support, self.constraint = np.zeros((steps, 6)), np.zeros((steps, nv))
         self.energy = np.zeros(steps)
         self.contacts: Index = np.zeros(steps, dtype=int)
-        self.corner: Index = np.zeros((steps, _MOST_CONTACTS), dtype=int)
-        self.point, self.force = (np.zeros((steps, _MOST_CONTACTS, 3)) for _ in range(2))
-        self.frame: Array = np.zeros((steps, _MOST_CONTACTS, 9))
+        self.corner: Index = np.zeros((steps, MOST_CONTACTS), dtype=int)
+        self.point, self.force = (np.zeros((steps, MOST_CONTACTS, 3)) for _ in range(2))
+        self.frame: Array = np.zeros((steps, MOST_CONTACTS, 9))
 
     def cut(self, steps: int) -> None:
         """Keep the first steps: those of a run that ended early."""
