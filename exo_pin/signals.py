@@ -171,12 +171,14 @@ def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = _OUTLIER_FACTOR, le
     off = np.zeros(values.shape)
     if len(values) < 5:
         return off
-    away = values[2:-2] - np.einsum("nk,nk...->n...", *_around(t, values))
-    usual = 1.4826 * np.median(np.abs(away), axis=0)
-    padded = np.pad(np.abs(away), [(2, 2)] + [(0, 0)] * (values.ndim - 1))
-    highest = np.lib.stride_tricks.sliding_window_view(padded, 5, axis=0).max(axis=-1)
-    out = (np.abs(away) > np.maximum(factor * usual, max(least, _ROUNDING))) & (np.abs(away) == highest)
-    off[2:-2] = np.where(out, away, 0.0)
+    weights = _around(t)
+    curves, flat = values.reshape(len(t), -1).T, off.reshape(len(t), -1).T
+    for curve, found in zip(curves, flat, strict=True):  # one at a time: a long recording's are large
+        away = curve[2:-2] - sum(w * curve[_shifted(lag)] for lag, w in weights.items())
+        size = np.abs(away)
+        highest = np.lib.stride_tricks.sliding_window_view(np.pad(size, 2), 5).max(axis=-1)
+        beyond = max(factor * 1.4826 * float(np.median(size)), least, _ROUNDING)
+        found[2:-2] = np.where((size > beyond) & (size == highest), away, 0.0)
     return off
 
 
@@ -225,15 +227,16 @@ def _curves(
     return t, values
 
 
-def _around(t: Array, values: Array) -> tuple[Array, Array]:
-    """For each inner sample the four neighbours `(n, 4, ...)` and their Lagrange weights `(n, 4)`."""
-    rows = np.arange(2, len(t) - 2)[:, None] + np.array([-2, -1, 1, 2])
-    weights = np.ones(rows.shape)
-    for k in range(4):
-        for m in range(4):
-            if m != k:
-                weights[:, k] *= (t[2:-2] - t[rows[:, m]]) / (t[rows[:, k]] - t[rows[:, m]])
-    return weights, values[rows]
+def _around(t: Array) -> dict[int, Array]:
+    """Lagrange weights `(n - 4,)` of each inner sample's four neighbours, by how far away they are."""
+    lags = (-2, -1, 1, 2)
+    at = {lag: t[_shifted(lag)] for lag in (*lags, 0)}
+    return {k: np.prod([(at[0] - at[m]) / (at[k] - at[m]) for m in lags if m != k], axis=0) for k in lags}
+
+
+def _shifted(lag: int) -> slice:
+    """The samples that lie `lag` after the inner ones; inner are all but two at each end."""
+    return slice(2 + lag, lag - 2 or None)
 
 
 def _rate(time: Array) -> float:

@@ -59,7 +59,6 @@ def answered(args: argparse.Namespace, body: Body, gait: Gait) -> AnsweredWalk:
 
     torques = torque_options.given(args)
     robot = load_robot(body, hip_order=args.hip_order)
-    gait, note = options.with_events(robot, gait)
-    verdict = options.plausibility(args, robot, gait)
-    answer = device_options.answer(args, body, gait, hip_order=args.hip_order)
-    return AnsweredWalk(robot, gait, note, verdict, torques, answer)
+    judged = options.judged(args, robot, gait)
+    answer = device_options.answer(args, body, judged.gait, hip_order=args.hip_order)
+    return AnsweredWalk(robot, judged.gait, judged.events_note, judged.verdict, torques, answer)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -74,7 +75,7 @@ def _doubts(args: argparse.Namespace, body: Body, walk: Gait) -> tuple[str, ...]
         return ()
     from exo_pin.robot import load_robot
 
-    return plausibility(args, load_robot(body), walk).reasons
+    return judged(args, load_robot(body), walk).verdict.reasons
 
 
 def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any) -> Gait:
@@ -111,10 +112,46 @@ def load(name: str, body: Body, files: OpenedFiles | None = None, **options: Any
 
 def plausibility(args: argparse.Namespace, robot: Robot, walk: Gait) -> Plausibility:
     """The verdict on a walk as it was read: by its motion, its markers and its force plates."""
+    return judged(args, robot, walk).verdict
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedWalk:
+    """A walk with its events and the verdict on it.
+
+    Attributes:
+        read: The walk as it was read.
+        body: Who walks.
+        gait: The walk, with its events or those of its kinematics.
+        events_note: Why there are no events; empty where there are.
+        verdict: By its motion, its markers and its force plates.
+    """
+
+    read: Gait
+    body: Body | None
+    gait: Gait
+    events_note: str
+    verdict: Plausibility
+
+
+def judged(args: argparse.Namespace, robot: Robot, walk: Gait) -> JudgedWalk:
+    """Events of a walk and the verdict on it, found once for a command: a long recording takes seconds.
+
+    Args:
+        args: The command line; it keeps the answer.
+        robot: The robot that walks.
+        walk: As it was read, or with the events that were found in it.
+    """
     from exo_pin import kinematics
 
+    kept: JudgedWalk | None = getattr(args, "judged", None)
+    if kept is not None and kept.body == robot.body and (walk is kept.read or walk is kept.gait):
+        return kept
     more = (*trials.doubts(args), *kinematics.disagreements(args.event_differences))
-    return kinematics.plausibility(robot, walk, more=more)
+    gait, note = with_events(robot, walk)
+    found = JudgedWalk(walk, robot.body, gait, note, kinematics.plausibility(robot, gait, more=more))
+    args.judged = found
+    return found
 
 
 def add_body(parser: argparse.ArgumentParser) -> None:

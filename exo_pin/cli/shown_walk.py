@@ -143,8 +143,8 @@ def _other_robot(args: argparse.Namespace, body: Body, gait: Gait) -> Scene:
     for option in (name for name, given in used.items() if given):
         raise DescriptionError(f"{option} is for the exoskeleton; leave it away with --robot")
     person = load_robot(body)
-    gait, note = options.with_events(person, gait)
-    verdict = options.plausibility(args, person, gait)
+    judged = options.judged(args, person, gait)
+    gait, note, verdict = judged.gait, judged.events_note, judged.verdict
     walk_output.print_plausibility(verdict)
     walk = retarget.retarget(gait, args.robot, body)
     title = walk.target.title or walk.target.name

@@ -12,6 +12,7 @@ from exo_pin.arrays import Array
 from exo_pin.gait.event import EVENT_KINDS, Event, between, times_of
 from exo_pin.gait.foot_velocity import slopes, vertex
 from exo_pin.gait.stride_checks import Feet
+from exo_pin.gait.time_series import rows_within
 
 STRIKE = "Handsaker 2016, running"
 TOE_OFF = "Fellin 2010, running"
@@ -87,23 +88,25 @@ def running_events(runner: Runner, known: Sequence[Event]) -> list[Event]:
     found = []
     for k, side in enumerate(SIDES):
         ahead, behind = (times_of(known, kind, side) for kind in EVENT_KINDS)
-        spans = [(t, min([t + _LANDS_WITHIN * stride, *(x for x in behind if x > t)])) for t in ahead]
+        latest = [t + _LANDS_WITHIN * stride for t in ahead]
+        spans = [(t, min([end, *between(behind, t, end)])) for t, end in zip(ahead, latest, strict=True)]
         if runner.height is not None:
             spans = [(_near_ground(feet.time, soles[:, k], *span), span[1]) for span in spans]
         else:  # a landing that the recording cuts off looks like what comes before it
             spans = [span for span in spans if span[1] < feet.time[-1]]
         landed = _contacts(grid, up[:, k], spans)
         found += [Event(t, "heel_strike", side, STRIKE) for t in landed]
-        offs = [_extended(feet.time, runner.knee[:, k], landed, t, stride) for t in behind]
+        straight = -runner.knee[:, k]
+        offs = [_extended(feet.time, straight, landed, t, stride) for t in behind]
         found += [Event(t, "toe_off", side, TOE_OFF) for t in offs if t is not None]
     return sorted(found, key=lambda event: event.time)
 
 
 def _near_ground(time: Array, sole: Array, start: float, end: float) -> float:
     """From when on a sole `(n,)` is near its lowest place between two moments [s]."""
-    rows = np.flatnonzero((time >= start) & (time <= end))
-    near = rows[sole[rows] <= sole[rows].min(initial=np.inf) + _NEAR_GROUND]
-    return float(time[near[0]]) if len(near) else start
+    rows = rows_within(time, start, end)
+    near = np.flatnonzero(sole[rows] <= sole[rows].min(initial=np.inf) + _NEAR_GROUND)
+    return float(time[rows][near[0]]) if len(near) else start
 
 
 def _contacts(time: Array, up: Array, spans: Sequence[tuple[float, float]]) -> list[float]:
@@ -114,12 +117,12 @@ def _contacts(time: Array, up: Array, spans: Sequence[tuple[float, float]]) -> l
 
 
 def _extended(
-    time: Array, knee: Array, landed: Sequence[float], behind: float, stride: float
+    time: Array, straight: Array, landed: Sequence[float], behind: float, stride: float
 ) -> float | None:
     """When the knee is most extended late in the stance that ends before Zeni's toe-off [s], or None."""
-    before = [t for t in landed if behind - stride < t < behind]
+    before = between(landed, behind - stride, behind)
     start = (before[-1] + behind) / 2 if before else behind - stride / 5
-    off, size = _peak(time, -knee, start, behind + _LANDS_WITHIN / 4 * stride)
+    off, size = _peak(time, straight, start, behind + _LANDS_WITHIN / 4 * stride)
     return off if np.isfinite(size) else None
 
 
@@ -150,10 +153,11 @@ def looks_like_a_run(runner: Runner, events: Sequence[Event], known: Sequence[Ev
         before = [e.time - _BEFORE for e in steps if e.time - _BEFORE >= grid[0]]
         return bool(before) and float(np.median(np.interp(before, grid, up[:, 0]))) < _FALLS
     stride = stride_time(events)
+    offs_of = {side: times_of(known, "toe_off", side) for side in SIDES}
     stances = [
         (offs[0] - e.time) / stride
         for e in steps
-        if (offs := between(times_of(known, "toe_off", e.side), e.time, e.time + stride))
+        if (offs := between(offs_of[e.side], e.time, e.time + stride))
     ]
     bent = float(np.percentile(runner.knee, 98, axis=0).min()) > _BENT_KNEE
     short = bool(stances) and float(np.median(stances)) < _SHORT_STANCE
@@ -164,9 +168,9 @@ def _backwards(feet: Feet, events: Sequence[Event]) -> float:
     """Median speed at which a standing foot goes back under the pelvis [m/s]: that of the runner."""
     ahead, speeds = feet.ahead(feet.toe), []
     for k, side in enumerate(SIDES):
-        for t in times_of(events, "heel_strike", side):
-            a, b = np.interp([t + 0.05, t + 0.15], feet.time, ahead[:, k])
-            speeds.append((a - b) / 0.1)
+        strikes = np.array(times_of(events, "heel_strike", side))
+        a, b = (np.interp(strikes + late, feet.time, ahead[:, k]) for late in (0.05, 0.15))
+        speeds += ((a - b) / 0.1).tolist()
     return float(np.median(speeds)) if speeds else 0.0
 
 

@@ -103,14 +103,15 @@ def spatiotemporal(
     counted = [span for span in spans if span.start < until - SAME_TIME]
     way = None if pelvis is None else real("pelvis", pelvis, (len(t), 2), error=GaitError)
     ground = _ground(walk, way)
-    length = np.array([np.linalg.norm(_path(walk, span, ground)) for span in counted])
+    paths = _paths(walk, spans, ground)
+    length = np.array([np.linalg.norm(paths[span]) for span in counted])
     duration = np.array([span.duration for span in counted])
     measures = {
         "cadence": ("steps/min", 120 / duration),
         "speed": ("m/s", length / duration),
         "stride_time": ("s", duration),
         "stride_length": ("m", length),
-        **_steps(walk, spans, ground, until),
+        **_steps(walk, paths, ground, until),
         **_phases(walk, counted),
     }
     known = {name: (unit, _known(values)) for name, (unit, values) in measures.items()}
@@ -148,14 +149,19 @@ class _Walk:
         """Times of the events of a kind and side, sorted [s]."""
         return self._times.get((kind, side), [])
 
-    def at(self, side: Side, t: float) -> Array:
-        """Horizontal position of the heel at a time [s], `(2,)` [m]."""
-        return np.array([np.interp(t, self.time, path) for path in self._paths[side]])
+    def at(self, side: Side, times: Sequence[float] | Array) -> Array:
+        """Horizontal positions of the heel at m times [s], `(m, 2)` [m]."""
+        return np.stack([np.interp(times, self.time, path) for path in self._paths[side]], axis=-1)
 
 
-def _path(walk: _Walk, span: Stride, ground: Array) -> Array:
-    """From a foot's strike to its next one over the ground, `(2,)` [m]."""
-    return walk.at(span.side, span.end) - walk.at(span.side, span.start) - ground * span.duration
+def _paths(walk: _Walk, spans: Sequence[Stride], ground: Array) -> dict[Stride, Array]:
+    """From a foot's strike to its next one over the ground, `(2,)` [m], of each span."""
+    paths: dict[Stride, Array] = {}
+    for side in SIDES:
+        mine = [span for span in spans if span.side == side]
+        moved = walk.at(side, [x.end for x in mine]) - walk.at(side, [x.start for x in mine])
+        paths |= zip(mine, moved - np.outer([x.duration for x in mine], ground), strict=True)
+    return paths
 
 
 def _ground(walk: _Walk, pelvis: Array | None) -> Array:
@@ -165,10 +171,10 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     """
     resting = []
     for side in SIDES:
-        spans = list(flat_times(walk.events, side))
-        moves = [(walk.at(side, b) - walk.at(side, a)) / (b - a) for a, b in spans]
-        moves = [move for move in moves if np.isfinite(move).all()]
-        resting += [np.median(moves, axis=0)] if moves else []
+        start, end = np.array(list(flat_times(walk.events, side))).reshape(-1, 2).T
+        moves = (walk.at(side, end) - walk.at(side, start)) / (end - start)[:, None]
+        moves = moves[np.isfinite(moves).all(axis=1)]
+        resting += [np.median(moves, axis=0)] if len(moves) else []
     velocity = np.mean(resting, axis=0) if resting else np.zeros(2)
     along = np.zeros(2)
     if pelvis is not None:
@@ -177,22 +183,28 @@ def _ground(walk: _Walk, pelvis: Array | None) -> Array:
     return np.zeros(2) if slower else velocity
 
 
-def _steps(walk: _Walk, spans: Sequence[Stride], ground: Array, until: float) -> dict[str, Measure]:
+def _steps(walk: _Walk, paths: Mapping[Stride, Array], ground: Array, until: float) -> dict[str, Measure]:
     """Lengths, times and widths from one foot's strike to the other's."""
     strikes = [event for event in walk.events if event.kind == "heel_strike"]
+    times_by_side = {side: walk.times("heel_strike", side) for side in SIDES}
+    places = {
+        (side, t): place
+        for side, at in times_by_side.items()
+        for t, place in zip(at, walk.at(side, at), strict=True)
+    }
     lengths: dict[str, list[float]] = {side: [] for side in SIDES}
     times: dict[str, list[float]] = {side: [] for side in SIDES}
     widths = []
-    begins = {(span.side, span.start): span for span in spans}
-    ends = {(span.side, span.end): span for span in spans}
+    begins = {(span.side, span.start): span for span in paths}
+    ends = {(span.side, span.end): span for span in paths}
     for a, b in pairwise(strikes):
         around = [span for span in (begins.get((a.side, a.time)), ends.get((b.side, b.time))) if span]
         if a.side == b.side or not around or a.time > until - SAME_TIME:
             continue
-        courses = [_path(walk, span, ground) for span in around]
+        courses = [paths[span] for span in around]
         course = sum((path for path in courses if np.isfinite(path).all()), np.zeros(2))
         forward = course / (float(np.linalg.norm(course)) or np.nan)
-        step = walk.at(b.side, b.time) - walk.at(a.side, a.time) - ground * (b.time - a.time)
+        step = places[b.side, b.time] - places[a.side, a.time] - ground * (b.time - a.time)
         lengths[b.side].append(float(step @ forward))
         times[b.side].append(b.time - a.time)
         widths.append(abs(float(step[1] * forward[0] - step[0] * forward[1])))

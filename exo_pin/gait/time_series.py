@@ -31,6 +31,11 @@ def runs(marked: Mask) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
 
 
+def rows_within(time: Array, start: float, end: float) -> slice:
+    """The samples at `(n,)` increasing times from one moment to another, both included [s]."""
+    return slice(int(np.searchsorted(time, start)), int(np.searchsorted(time, end, side="right")))
+
+
 def resampled(time: Array, y: Array, new: Array, periodic: bool) -> Array:
     """The curve through `(n, m)` samples at the evenly spaced times `new`.
 

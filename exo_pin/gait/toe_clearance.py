@@ -12,6 +12,7 @@ from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
 from exo_pin.gait.event import Event, flat_times
 from exo_pin.gait.spatiotemporal import Number
+from exo_pin.gait.time_series import rows_within
 
 MID_SWING = (0.3, 0.8)
 """Part of the swing in which the toe passes lowest (Winter, Phys Ther 72 (1992) 45-53): after it
@@ -39,7 +40,7 @@ def toe_clearances(time: Array, toes: Array, events: Sequence[Event]) -> dict[st
 
 def _clearances(time: Array, height: Array, events: Sequence[Event], side: Side) -> list[float]:
     """Of each swing that was seen whole in its middle [m]; none without a stance to measure from."""
-    resting = [height[(time >= a) & (time <= b)] for a, b in flat_times(events, side)]
+    resting = [height[rows_within(time, a, b)] for a, b in flat_times(events, side)]
     levels = [float(part.mean()) for part in resting if len(part) and np.isfinite(part).all()]
     if not levels:
         return []
@@ -48,7 +49,7 @@ def _clearances(time: Array, height: Array, events: Sequence[Event], side: Side)
         if (off.kind, strike.kind) != ("toe_off", "heel_strike"):
             continue
         a, b = (off.time + part * (strike.time - off.time) for part in MID_SWING)
-        middle = height[(time >= a) & (time <= b)]
+        middle = height[rows_within(time, a, b)]
         if len(middle) and np.isfinite(middle).all():
             values.append(float(middle.min()) - float(np.mean(levels)))
     return values

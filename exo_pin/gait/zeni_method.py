@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import EventKind, Side
 from exo_pin.arguments import number
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.foot_velocity import vertex
@@ -131,8 +131,8 @@ def _maxima(time: Array, y: Array, side: Side, periodic: bool, smallest: float) 
 def _excursion(time: Array, y: Array, smallest: float) -> float:
     """How far the foot usually moves to and fro [m], where it moves: before and after it may stand."""
     length = int(np.searchsorted(time, time[0] + _WINDOW))
-    starts = range(0, max(len(y) - length, 0) + 1, max(length // 4, 1))
-    spans = np.array([np.ptp(np.percentile(y[i : i + length], [5, 95])) for i in starts])  # no single sample
+    windows = np.lib.stride_tricks.sliding_window_view(y, min(length, len(y)))[:: max(length // 4, 1)]
+    spans = np.ptp(np.percentile(windows, [5, 95], axis=1), axis=0)  # no single sample
     walks = spans[spans >= smallest]
     return float(np.median(walks) if len(walks) else spans.max())
 
@@ -146,7 +146,8 @@ def _prominent(y: Array, height: float, border: float) -> list[int]:
     peaks: list[int] = []
     top = bottom = 0
     rising: bool | None = None  # which way the curve goes is unknown until it has moved by `height`
-    for i, value in enumerate(y.tolist()):
+    turns = _turning_points(y)
+    for i, value in zip(turns.tolist(), y[turns].tolist(), strict=True):
         if value > y[top]:
             top = i
         if value < y[bottom]:
@@ -160,6 +161,13 @@ def _prominent(y: Array, height: float, border: float) -> list[int]:
     if rising and y[top] - y[-1] >= border:
         peaks.append(top)
     return peaks
+
+
+def _turning_points(y: Array) -> Index:
+    """Indices of the samples at which y does not go on rising or falling, and of its ends."""
+    way = np.sign(np.diff(y))
+    goes_on = (way[1:] == way[:-1]) & (way[1:] != 0)
+    return np.flatnonzero(np.concatenate([[True], ~goes_on, [True]]))
 
 
 def check_apart(forward: Array) -> None:

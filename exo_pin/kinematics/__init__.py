@@ -6,7 +6,7 @@ from exo_pin.kinematics.event_differences import EventDifference, disagreements,
 from exo_pin.kinematics.foot_markers import foot_markers
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates, smoothed_curves
-from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, velocities
+from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, positions, velocities
 from exo_pin.kinematics.plate_contacts import PlateStep, plate_events, plate_steps, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.stance_slide import (
@@ -50,6 +50,7 @@ __all__ = [
     "plate_steps",
     "plausibility",
     "poses",
+    "positions",
     "slide_doubts",
     "smoothed_curves",
     "sole_slide",

@@ -18,7 +18,7 @@ from exo_pin.gait.running_method import Runner
 from exo_pin.gait.stride_checks import Feet
 from exo_pin.gait.strides import counted_strides, turns_of
 from exo_pin.gait.walking_bouts import walking_events
-from exo_pin.kinematics.motion import poses
+from exo_pin.kinematics.motion import poses, positions
 from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.robot import Robot
 
@@ -74,7 +74,7 @@ def contacts(
         DescriptionError: The shape of q or base does not fit, or a number is not finite.
     """
     ground, tolerance = number("ground", ground), number("tolerance", tolerance)
-    position = poses(robot, q, CORNERS, base=base)[..., :3, 3]
+    position = positions(robot, q, CORNERS, base=base)
     height = position[..., 2] - ground
     touching = height <= tolerance
     feet = np.asarray(touching.reshape(*touching.shape[:-1], len(FEET), -1).any(axis=-1))

@@ -7,14 +7,14 @@ import numpy as np
 from exo_pin.anatomy import CORNERS
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.kinematics.motion import poses
+from exo_pin.kinematics.motion import positions
 from exo_pin.robot import Robot
 
 
 def sole_points(robot: Robot, gait: Gait) -> Array:
     """`(n, 2, 2, 3)` left and right foot: heel and ball, midway between their corners [m]."""
     base = robot.base_of(gait)
-    return heels_and_balls(poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3])
+    return heels_and_balls(positions(robot, robot.from_gait(gait), CORNERS, base=base))
 
 
 def heels_and_balls(corners: Array) -> Array:

@@ -14,7 +14,7 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.gait import Gait
 from exo_pin.gait.event import flat_times
 from exo_pin.gait.spatiotemporal import ground_velocity
-from exo_pin.gait.time_series import runs
+from exo_pin.gait.time_series import rows_within, runs
 from exo_pin.kinematics.sole_contact import TOUCH_HEIGHT
 from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
@@ -140,7 +140,7 @@ def _over_ground(time: Array, points: Array, ground: Array) -> Array:
 def _slides(gait: Gait, side: Side, sole: Array) -> Iterator[StanceSlide]:
     """The slides of one foot, its sole `(n, 2)` seen from the ground [m]."""
     for start, end in flat_times(gait.events, side):
-        places = sole[(gait.time >= start) & (gait.time <= end)]
+        places = sole[rows_within(gait.time, start, end)]
         if len(places) >= _FEWEST_SAMPLES:
             apart = np.linalg.norm(places[:, None] - places[None], axis=2)
             yield StanceSlide(side, start, end, float(apart.max()))

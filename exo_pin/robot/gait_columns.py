@@ -36,6 +36,8 @@ def gait_columns(model: Any, joints: Sequence[str]) -> tuple[list[int], list[int
 
 def in_hip_order(q: Array, *, source: HipOrder, target: HipOrder) -> Array:
     """Angles (n, 12) in the order of `JOINTS` with the hips converted from one order of axes to another."""
+    if source == target:
+        return q
     q = q.copy()
     for side in SIDES:
         hips = [JOINTS.index(f"{side}_{movement}") for movement in _HIPS]

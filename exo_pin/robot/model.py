@@ -256,7 +256,9 @@ class Robot:
         if self.base == "floating" and gait.base is not None:
             q[:, :FREE] = base_coordinates(gait.base)
         mine, columns = gait_columns(self.model, self.joints)
-        q[:, columns] = in_hip_order(gait.q, source="clinical", target=self.hip_order)[:, mine]
+        angles = in_hip_order(gait.q, source="clinical", target=self.hip_order)
+        for k, column in zip(mine, columns, strict=True):
+            q[:, column] = angles[:, k]
         return q
 
     def to_gait(self, q: npt.ArrayLike, like: Gait) -> Gait:

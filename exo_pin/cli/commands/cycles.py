@@ -47,11 +47,10 @@ def run(args: argparse.Namespace) -> int:
 
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
-    recorded = options.with_events(robot, gait)[0]
-    outliers = curve_outliers(recorded)  # before the filter spreads them
-    verdict = options.plausibility(args, robot, gait)
-    if args.cutoff is not None:
-        gait = edit.filtered(gait, cutoff=args.cutoff)
+    judged = options.judged(args, robot, gait)
+    outliers = curve_outliers(judged.gait)  # before the filter spreads them
+    verdict = judged.verdict
+    gait = judged.gait if args.cutoff is None else edit.filtered(gait, cutoff=args.cutoff)
     gait = with_events(robot, gait)
     found = walk_numbers(robot, gait, trials.feet(args, robot, gait))
     cut = _cut(args, gait, found)

@@ -78,16 +78,17 @@ def _found(args: argparse.Namespace) -> _Info:
 
     body = body_options.sized(args)
     robot = load_robot(body.body)
-    gait, note = options.with_events(robot, options.gait_from(args, body.body))
+    judged = options.judged(args, robot, options.gait_from(args, body.body))
+    gait = judged.gait
     return _Info(
         gait=gait,
-        events_note=note,
+        events_note=judged.events_note,
         differences=args.event_differences,
         ranges=range_demands(robot, robot.from_gait(gait)),
         peak_speeds=np.abs(gait.dq).max(axis=0),
         numbers=walk_numbers(robot, gait, trials.feet(args, robot, gait)),
         outliers=curve_outliers(gait),
-        plausibility=options.plausibility(args, robot, gait),
+        plausibility=judged.verdict,
         body=body,
         markers=trials.to_json(args),
     )
