@@ -107,7 +107,8 @@ def _write_poses(robot: Robot, rows: Array, frames: dict[int, int], out: Array) 
 
 def _remote_samples(robot: Robot, q: Array) -> tuple[Array, tuple[int, ...]]:
     """As `samples`, left where they live."""
-    return q.reshape(-1, robot.nq), robot.angles(q).shape[:-1]
+    shape = robot.angles(q).shape[:-1]
+    return q.reshape(-1, robot.nq), shape
 
 
 def velocities(
