@@ -15,6 +15,9 @@ from exo_pin.simulation import PelvisSupport, Plant, simulate
 ENERGY = 0.2
 """Largest error of the energy balance [%]: the step is 1 ms."""
 
+STEP = 0.03
+"""Largest relative change of a number where the step is halved or doubled."""
+
 
 @pytest.fixture(scope="module")
 def exo():
@@ -44,6 +47,22 @@ def test_body_weight_support_takes_its_part_of_the_weight(exo):
     run = simulate(exo, normative_gait("slow"), cycles=3, body_weight_support=0.3)
     assert run.verdict.word == "walks", run.verdict.why
     assert run.numbers.vertical_force_mean_bw == pytest.approx(0.7, abs=0.005)
+
+
+def test_the_step_hardly_matters(exo):
+    gait = normative_gait("slow")
+    found = [simulate(exo, gait, cycles=2, timestep=step).numbers for step in (0.002, 0.001, 0.0005)]
+    for one in (found[0], found[2]):
+        assert one.tracking_rms_deg == pytest.approx(found[1].tracking_rms_deg, rel=STEP)
+        assert one.vertical_force_mean_bw == pytest.approx(found[1].vertical_force_mean_bw, rel=STEP)
+
+
+def test_a_stiff_support_carries_weight_itself(exo):
+    soft, stiff = (
+        simulate(exo, normative_gait("slow"), cycles=2, support=name).numbers.vertical_force_mean_bw
+        for name in ("soft", "stiff")
+    )
+    assert stiff < soft - 0.01
 
 
 def test_the_mirrored_walk_runs_mirrored(exo):
