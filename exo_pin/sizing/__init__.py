@@ -1,6 +1,26 @@
 """Sizing of motors and gears: what the joints of a walk need against what a motor can do."""
 
+from exo_pin.sizing.gear import GearedUse, Ratios, fitting_ratios, geared, motor_torque
+from exo_pin.sizing.joint_load import JointLoad, Spring
 from exo_pin.sizing.motor import Motor
 from exo_pin.sizing.motor_file import example_motors, find_motor, load_motor
+from exo_pin.sizing.walk_sizing import JointSizing, Sizing, joint_loads, size, stride_time
 
-__all__ = ["Motor", "example_motors", "find_motor", "load_motor"]
+__all__ = [
+    "GearedUse",
+    "JointLoad",
+    "JointSizing",
+    "Motor",
+    "Ratios",
+    "Sizing",
+    "Spring",
+    "example_motors",
+    "find_motor",
+    "fitting_ratios",
+    "geared",
+    "joint_loads",
+    "load_motor",
+    "motor_torque",
+    "size",
+    "stride_time",
+]

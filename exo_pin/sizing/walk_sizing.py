@@ -1,0 +1,245 @@
+"""Sizing of a device for a walk: every driven joint's load against the limits of its actuator or motor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exo_pin import kinematics
+from exo_pin.anatomy import JOINTS
+from exo_pin.anatomy.names import Reaction
+from exo_pin.arguments import number
+from exo_pin.arrays import Array
+from exo_pin.dynamics import Dynamics
+from exo_pin.errors import GaitError
+from exo_pin.gait import Gait
+from exo_pin.robot import Robot
+from exo_pin.sizing.gear import GearedUse, Ratios, fitting_ratios, geared
+from exo_pin.sizing.joint_load import JointLoad, Spring, known
+from exo_pin.sizing.motor import Motor
+
+_FREE = 6
+"""Degrees of freedom of the pelvis, in front of the joints'."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointSizing:
+    """One joint's load against what its drive can do.
+
+    Attributes:
+        load: What the joint bears.
+        effort: Largest torque of the device's record [N m].
+        velocity: Largest speed of the device's record [rad/s].
+        motor: The motor that stands for the record's limits, or None.
+        given: The motor with the ratio that was given, or None.
+        ratios: The ratios with which it fits, or None without a motor.
+        spring: A spring beside the motor that saves most, or None.
+    """
+
+    load: JointLoad
+    effort: float
+    velocity: float
+    motor: Motor | None = None
+    given: GearedUse | None = None
+    ratios: Ratios | None = None
+    spring: Spring | None = None
+
+    @property
+    def torque_use(self) -> float:
+        """Peak torque as a part of the record's."""
+        return self.load.peak_torque / self.effort if self.effort else math.inf
+
+    @property
+    def speed_use(self) -> float:
+        """Peak speed as a part of the record's."""
+        return self.load.peak_speed / self.velocity if self.velocity else math.inf
+
+    @property
+    def fits(self) -> bool:
+        """With a motor: whether it fits, with the given ratio or with any; else the record's rectangle."""
+        if self.given is not None:
+            return self.given.fits
+        if self.ratios is not None:
+            return bool(self.ratios.ranges)
+        return max(self.torque_use, self.speed_use) <= 1.0
+
+    def facts(self) -> dict[str, Any]:
+        """Plain values for JSON, units as the keys say."""
+        facts = self.load.facts() | {
+            "fits": self.fits,
+            "rectangle": {
+                "effort_Nm": self.effort,
+                "velocity_rad_s": self.velocity,
+                "torque_use": self.torque_use,
+                "speed_use": self.speed_use,
+            },
+            "spring": self._spring_facts(),
+        }
+        if self.motor is not None and self.ratios is not None:
+            facts["motor"] = self._motor_facts(self.motor, self.ratios)
+        return facts
+
+    def _motor_facts(self, motor: Motor, ratios: Ratios) -> dict[str, Any]:
+        facts = ratios.facts()
+        for key, recovery in (("energy", False), ("energy_with_recovery", True)):
+            spent = self.load.energy(efficiency=motor.efficiency, recovery=recovery)
+            facts[f"electrical_{key}_J_per_stride"] = known(spent)
+        return facts if self.given is None else facts | {"given": self.given.facts()}
+
+    def _spring_facts(self) -> dict[str, Any] | None:
+        if self.spring is None:
+            return None
+        left = self.load.beside(self.spring)
+        return {
+            "stiffness_Nm_per_rad": self.spring.stiffness,
+            "rest_rad": self.spring.rest,
+            "rms_Nm": left.rms_torque,
+            "peak_Nm": left.peak_torque,
+            "rms_saved": 1.0 - left.rms_torque / self.load.rms_torque,
+            "energy_J_per_stride": known(left.energy()),
+        }
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Sizing:
+    """Every driven joint of a walk on a device.
+
+    Attributes:
+        joints: Driven joints, in the order of `JOINTS`.
+        passive: Joints that move without a motor: their torque is not sized.
+        motor: The motor of all joints, or None: the device's record counts.
+        reaction: Whether the ground reaction behind the torques is `"measured"` or `"predicted"`.
+        source: Where the torques come from, in words.
+        remarks: What is not known or assumed, a plain sentence each.
+    """
+
+    joints: tuple[JointSizing, ...]
+    passive: tuple[str, ...]
+    motor: Motor | None
+    reaction: Reaction
+    source: str
+    remarks: tuple[str, ...]
+
+    @property
+    def fits(self) -> bool:
+        """Whether every joint's drive fits."""
+        return all(joint.fits for joint in self.joints)
+
+    @property
+    def limit(self) -> str:
+        """What the loads are held against, in words."""
+        if self.motor is None:
+            return "rectangle of the device's record (effort, velocity), no speed-torque line"
+        return f"{self.motor.name} ({self.motor.source})"
+
+    def facts(self) -> dict[str, Any]:
+        """Plain values for JSON, units as the keys say."""
+        return {
+            "fits": self.fits,
+            "joints": {joint.load.joint: joint.facts() for joint in self.joints},
+            "passive": list(self.passive),
+            "limit": self.limit,
+            "ground_reaction": self.reaction,
+            "source": self.source,
+            "remarks": list(self.remarks),
+        }
+
+
+def size(
+    dynamics: Dynamics, *, stride: float = math.nan, motor: Motor | None = None, ratio: float | None = None
+) -> Sizing:
+    """The drives of a walk's joints, each bearing the whole torque of its joint.
+
+    Args:
+        dynamics: Of the walk on the device (`exo_pin.dynamics.torques`).
+        stride: Stride time, for energies per stride [s] (`stride_time`); NaN: not known.
+        motor: Stands for the effort and velocity of the device's record at every joint.
+        ratio: Gear ratio of the motor at every joint; left out: those that fit are looked for.
+
+    Raises:
+        GaitError: No driven joint has a torque.
+        DescriptionError: The ratio is not positive.
+    """
+    if ratio is not None:
+        number("ratio", ratio, above=0.0)
+    robot = dynamics.robot
+    passive = () if robot.device is None else robot.device.passive
+    loads = joint_loads(dynamics, stride)
+    joints = []
+    for name in (name for name in loads if name not in passive):
+        j = robot.joints.index(name)
+        joints.append(_sized(loads[name], float(robot.effort[j]), float(robot.velocity[j]), motor, ratio))
+    if not joints:
+        raise GaitError("no driven joint of this device has a torque on this walk")
+    remarks = dynamics.remarks
+    if math.isnan(stride):
+        remarks = (*remarks, "No stride time is known: there are no energies per stride.")
+    return Sizing(
+        joints=tuple(joints),
+        passive=tuple(name for name in passive if name in loads),
+        motor=motor,
+        reaction=dynamics.reaction,
+        source=dynamics.source,
+        remarks=remarks,
+    )
+
+
+def joint_loads(dynamics: Dynamics, stride: float = math.nan) -> Mapping[str, JointLoad]:
+    """The load of every joint that has a torque, over the frames that are valid.
+
+    Args:
+        dynamics: Of the walk.
+        stride: Stride time [s]; NaN: not known.
+    """
+    robot, motion = dynamics.robot, dynamics.motion
+    angles, accelerations = robot.angles(motion.q), motion.a[:, _FREE:]
+    share = _shares(dynamics.time)
+    found = {}
+    for k, name in enumerate(JOINTS):
+        torque = dynamics.torque[:, k]
+        kept = np.isfinite(torque)
+        if not kept.any():
+            continue
+        j = robot.joints.index(name)
+        part = share[kept] / share[kept].sum()
+        curves = (angles[kept, j], dynamics.velocity[kept, k], accelerations[kept, j], torque[kept])
+        found[name] = JointLoad(name, *curves, part, stride)
+    return found
+
+
+def _sized(
+    load: JointLoad, effort: float, velocity: float, motor: Motor | None, ratio: float | None
+) -> JointSizing:
+    return JointSizing(
+        load=load,
+        effort=effort,
+        velocity=velocity,
+        motor=motor,
+        given=None if motor is None or ratio is None else geared(load, motor, ratio),
+        ratios=None if motor is None else fitting_ratios(load, motor),
+        spring=load.spring(),
+    )
+
+
+def _shares(time: Array) -> Array:
+    """Part of the time that every sample stands for, also on an uneven clock."""
+    steps = np.gradient(time)
+    return np.asarray(steps / steps.sum())
+
+
+def stride_time(robot: Robot, gait: Gait) -> float:
+    """Mean stride time of a walk [s]; NaN where it has none.
+
+    Args:
+        robot: Who walks.
+        gait: The walk.
+    """
+    try:
+        numbers = kinematics.spatiotemporal(robot, gait)
+    except GaitError:
+        return math.nan
+    return numbers["stride_time"].mean if "stride_time" in numbers else math.nan
