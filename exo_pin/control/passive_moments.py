@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from exo_pin import arguments
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import joint
-from exo_pin.arrays import Array, as_floats
-from exo_pin.errors import DescriptionError
+from exo_pin.arrays import Array
 
 _HIP, _KNEE, _PLANTARFLEXION = (-20.0, 100.0), (0.0, 120.0), (-20.0, 40.0)
 """Angles that the exponentials are used for [deg]; beyond them the moment stays (they would explode)."""
@@ -35,11 +35,9 @@ def passive_moments(q: npt.ArrayLike) -> Array:
         q: Joint angles (..., 12) in the order of `JOINTS`, clinical [rad].
 
     Raises:
-        DescriptionError: The last axis is not 12.
+        DescriptionError: The last axis is not 12, or an angle is not finite.
     """
-    q = as_floats(q)
-    if q.ndim == 0 or q.shape[-1] != len(JOINTS):
-        raise DescriptionError(f"q has shape {q.shape}; (..., {len(JOINTS)}) is accepted, as JOINTS")
+    q = arguments.real("q", q, (..., len(JOINTS)))
     out = np.zeros(q.shape)
     if q.ndim == 1:  # one sample, as in a control loop: floats are ten times faster than arrays of two
         degrees = [math.degrees(x) for x in q.tolist()]

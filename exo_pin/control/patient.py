@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from exo_pin import arguments
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.control.passive_moments import passive_moments
-from exo_pin.errors import DescriptionError
 from exo_pin.frozen_fields import set_fields
 
 _STIFFEST, _MOST_DAMPING, _LONGEST_DELAY = 1000.0, 100.0, 1.0
@@ -54,8 +53,7 @@ class Patient:
             ("delay", self.delay, _LONGEST_DELAY),
             ("spastic_threshold", self.spastic_threshold, 20.0),
         ):
-            if not 0.0 <= value <= most:
-                raise DescriptionError(f"{name} is {value:g}; 0 to {most:g} is accepted")
+            arguments.number(name, value, least=0.0, most=most)
 
     def given(self, tau: Array) -> Array:
         """What the person gives of the torques (..., 12) that a walk requires [N m]."""
@@ -102,8 +100,8 @@ def shares(
     Raises:
         DescriptionError: `assist` is not within 0 to 1.
     """
-    if assist is not None and not 0.0 <= assist <= 1.0:
-        raise DescriptionError(f"assist is {assist:g}; 0 to 1 is accepted")
+    if assist is not None:
+        arguments.number("assist", assist, least=0.0, most=1.0)
     tissues = np.zeros(q.shape) if patient is None else patient.tissues(q)
     if assist is not None:
         motors = assist * (tau - tissues)
@@ -116,10 +114,9 @@ def shares(
 
 def _checked(name: str, values: Array, most: float) -> Array:
     """A read-only copy, one finite number a joint from 0 to `most`."""
-    array = np.array(np.broadcast_to(np.asarray(values, dtype=float), (len(JOINTS),)))
+    array = np.array(arguments.real(name, values, (len(JOINTS),)))
     for joint, value in zip(JOINTS, array, strict=True):
-        if not (math.isfinite(value) and 0.0 <= value <= most):
-            raise DescriptionError(f"{name} of {joint} is {value:g}; 0 to {most:g} is accepted")
+        arguments.number(f"{name} of {joint}", float(value), least=0.0, most=most)
     array.setflags(write=False)
     return array
 

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from exo_pin import arguments
 from exo_pin.devices import SLIDES, Device
 from exo_pin.errors import DescriptionError, UnknownNameError
 
@@ -36,11 +37,8 @@ class PelvisSupport:
 
     def __post_init__(self) -> None:
         for what, values in (("stiffness", self.stiffness), ("damping", self.damping)):
-            array = np.asarray(values, dtype=float)
-            if array.shape != (_AXES,) or not np.isfinite(array).all() or (array < 0.0).any():
-                raise DescriptionError(
-                    f"{what} of the support is {values}; six numbers from 0 on are accepted"
-                )
+            if (arguments.real(f"{what} of the support", values, (_AXES,)) < 0.0).any():
+                raise DescriptionError(f"{what} of the support is {values}; numbers from 0 on are accepted")
 
 
 _STIFF_STIFFNESS, _STIFF_DAMPING = (1e5, 1e5, 1e5, 2e4, 2e4, 2e4), (6e3, 6e3, 6e3, 1e3, 1e3, 1e3)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, fields
 
 import numpy as np
 
+from exo_pin import arguments
 from exo_pin.arrays import Array
-from exo_pin.errors import DescriptionError
 
 
 @dataclass(frozen=True)
@@ -48,8 +47,7 @@ class Plant:
             if "range" not in entry.metadata or value is None:
                 continue
             lower, upper = entry.metadata["range"]
-            if not (math.isfinite(value) and lower <= value <= upper):
-                raise DescriptionError(f"{entry.name} is {value:g}; {lower:g} to {upper:g} is accepted")
+            arguments.number(entry.name, value, least=lower, most=upper)
 
 
 _SLIPPING = 0.05

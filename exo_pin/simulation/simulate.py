@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from exo_pin import arguments
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.control import Controller, Patient, find_controller, find_patient, reset
 from exo_pin.dynamics import mass_of, torques
-from exo_pin.errors import DescriptionError, GaitError
+from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
@@ -22,6 +23,9 @@ from exo_pin.simulation.pelvis_support import PelvisSupport, SupportName, find_s
 from exo_pin.simulation.plant import Joints, Plant
 from exo_pin.simulation.reference_motion import reference_motion
 from exo_pin.simulation.run import Run
+
+_MOST_SUPPORT = 0.95
+"""Part of the weight: with all of it nothing would press the soles to the floor."""
 
 MOST_STEPS = 1_000_000
 """Of one run: 1000 s at 1 ms, some 2 GB."""
@@ -66,6 +70,7 @@ def simulate(
         GaitError: The walk has no stance.
     """
     plant = plant or Plant()
+    arguments.count("seed", seed, 0, arguments.LARGEST_SEED)
     _check(body_weight_support, cycles, timestep)
     _check_steps(gait, cycles, timestep)
     held = find_support(support, robot.device)
@@ -110,12 +115,9 @@ def simulate(
 
 
 def _check(body_weight_support: float, cycles: int, timestep: float) -> None:
-    if not 0.0 <= body_weight_support < 1.0:
-        raise GaitError(f"body-weight support is {body_weight_support:g}; 0 to below 1 is accepted")
-    if cycles < 1 or cycles != int(cycles):
-        raise DescriptionError(f"{cycles} cycles; a whole number from 1 on is accepted")
-    if not 1e-4 <= timestep <= 5e-3:
-        raise DescriptionError(f"timestep is {timestep:g} s; 0.0001 to 0.005 s is accepted")
+    arguments.number("body-weight support", body_weight_support, least=0.0, most=_MOST_SUPPORT)
+    arguments.count("cycles", cycles, 1, MOST_STEPS)
+    arguments.number("timestep [s]", timestep, least=1e-4, most=5e-3)
 
 
 def _check_steps(gait: Gait, cycles: int, timestep: float) -> None:

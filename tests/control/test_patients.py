@@ -71,12 +71,12 @@ def test_a_joint_s_row_goes_before_its_movement_and_that_before_its_side(tmp_pat
 @pytest.mark.parametrize(
     ("text", "word"),
     [
-        ("[activity]\nright = 3\n", "0 to 1"),
+        ("[activity]\nright = 3\n", "from 0 to 1"),
         ("[activity]\nrihgt = 0.3\n", "right"),
         ("[activity]\nright = true\n", "number"),
         ("activity = 0.3\n", "table"),
         ("actvity = 0.3\n", "activity"),
-        ("delay_s = 30\n", "0 to 1"),
+        ("delay_s = 30\n", "from 0 to 1"),
         ("passive = 1\n", "true or false"),
         ("[activity]\nright = nan\n", "finite"),
     ],
@@ -106,7 +106,7 @@ def test_motors_and_person_share_the_torque():
     np.testing.assert_allclose(motors, -healthy.tissues(q), atol=1e-12)  # nothing but what the tissues take
     half, _ = shares(tau, q, dq, find_patient("plegic"), 0.5)
     np.testing.assert_allclose(half, 0.5 * (tau - passive_moments(q)), atol=1e-12)
-    with pytest.raises(DescriptionError, match="0 to 1"):
+    with pytest.raises(DescriptionError, match="from 0 to 1"):
         shares(tau, q, dq, healthy, 1.5)
 
 

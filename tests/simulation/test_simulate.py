@@ -228,7 +228,7 @@ def test_every_number_of_the_machine_has_a_range(field):
 
 
 def test_a_support_has_six_numbers():
-    with pytest.raises(DescriptionError, match="six"):
+    with pytest.raises(DescriptionError, match="shape"):
         PelvisSupport("odd", (1.0,), (1.0,) * 6)
     with pytest.raises(UnknownNameError):
         simulate(load_robot(), normative_gait(), support="chair")
