@@ -59,9 +59,9 @@ def real(
         raise error(f"{name} is {_shown(values)}; an array of real numbers is accepted") from None
     if shape is not ANY and not _fits(array.shape, shape):
         raise error(f"{name} has shape {array.shape}; {_in_words(shape)} is accepted")
-    wrong = np.isinf(array) if gaps else ~np.isfinite(array)
-    if wrong.any():
-        place = np.unravel_index(int(wrong.argmax()), array.shape)
+    right = ~np.isinf(array) if gaps else np.isfinite(array)
+    if not right.all():
+        place = np.unravel_index(int(right.argmin()), array.shape)
         where = f" at [{', '.join(str(int(k)) for k in place)}]" if array.ndim else ""
         accepted = "a finite number, or NaN where nothing was measured," if gaps else "a finite number"
         raise error(f"{name} is {float(array[place]):g}{where}; {accepted} is accepted")
@@ -215,7 +215,9 @@ def _bounds(least: float, most: float, above: float) -> str:
 def _fits(found: tuple[int, ...], shape: Shape) -> bool:
     if shape and shape[0] is ...:
         shape = shape[1:]
-        found = found[max(len(found) - len(shape), 0) :]
+        found = found[-len(shape) :] if shape else ()
+    if found == shape:
+        return True
     if len(found) != len(shape):
         return False
     pairs = zip(found, shape, strict=True)

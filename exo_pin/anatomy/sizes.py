@@ -52,6 +52,8 @@ SIZES = {
 }
 """Every number of a `Body`."""
 
+_LARGEST = 10**15
+
 DEFAULT_LIMITS = MappingProxyType(ranges_by_joint(LIMITS_DEG))
 """Default joint limits [rad] by joint name."""
 
@@ -64,7 +66,8 @@ def checked(name: str, value: object) -> float:
     """
     size = SIZES[name]
     accepted = f"{size.low:g} .. {size.high:g} {size.unit} is accepted"
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
+    beyond = isinstance(value, int) and abs(value) > _LARGEST  # what no float holds
+    if isinstance(value, bool) or not isinstance(value, numbers.Real) or beyond or not math.isfinite(value):
         raise DescriptionError(f"{name} is {value!r}; a number of {accepted}")
     number = float(value)
     if not size.low <= number <= size.high:

@@ -10,6 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Movement
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.compare.best_motion import Motion
 from exo_pin.compare.recorded_walk import Walk
@@ -83,7 +84,12 @@ class Loss:
         return _spread(self.rotation_error)
 
     def in_phases(self, errors: Array) -> dict[str, float]:
-        """Root mean square of errors (n, 2) in each phase of the foot's own cycle; NaN without events."""
+        """Root mean square of errors (n, 2) in each phase of the foot's own cycle; NaN without events.
+
+        Raises:
+            DescriptionError: The shape does not fit the walk, or an error is not finite.
+        """
+        errors = real("errors", errors, (len(self.walk.gait), 2))
         parts = [masks(self.walk.gait, side) for side in SIDES]
         return {
             name: _root_mean_square(np.concatenate([errors[parts[k][name], k] for k in range(2)]))

@@ -10,6 +10,7 @@ import numpy as np
 from exo_pin import description, dh
 from exo_pin.anatomy import FEET
 from exo_pin.anatomy.inertia import Inertial
+from exo_pin.arguments import LARGEST_SEED, count
 from exo_pin.arrays import Array
 from exo_pin.crosscheck import mujoco_inverse, opensim_inverse
 from exo_pin.crosscheck.random_states import States, random_states
@@ -21,6 +22,7 @@ from exo_pin.robot.floating_base import base_coordinates
 DYNAMICS_TOLERANCE = 1e-10
 """Largest difference between two ways of inverse dynamics, as a part of the state's largest force."""
 
+_MOST_STATES = 10_000
 _STATES = 1000
 _LINK = "_link_mass"
 
@@ -38,8 +40,9 @@ def inverse_dynamics(robot: Robot, n: int = _STATES, *, seed: int = 0) -> dict[s
         [N, N m] and joint torques [N m], as a part of the largest of the state.
 
     Raises:
-        DescriptionError: The robot is not an exoskeleton of this package.
+        DescriptionError: The robot is not an exoskeleton of this package, or a number is not accepted.
     """
+    n, seed = count("n", n, 1, _MOST_STATES), count("seed", seed, 0, LARGEST_SEED)
     if robot.body is None or robot.device is None:
         raise DescriptionError("the witnesses of dynamics need a robot that load_robot made")
     model = floating_robot(robot, robot.masses)

@@ -27,6 +27,9 @@ BENT_KNEE = np.radians(5.0)
 """Angles are compared where the knee is bent more than this [rad]: towards a straight knee a foot's pose
 hardly determines the knee's angle."""
 
+_LARGEST_DAMPING = 1e6
+"""[m/rad]: more holds every joint still."""
+
 _LARGEST_NOISE = 1.0
 """Standard deviation [m]: more is a slip of units."""
 
@@ -109,7 +112,10 @@ def recover_noisy(robot: Robot, gait: Gait, sd: float, *, damping: float = 0.0, 
     Raises:
         DescriptionError: A number is negative or not finite.
     """
-    sd, damping = number("sd", sd, least=0.0, most=_LARGEST_NOISE), number("damping", damping, least=0.0)
+    sd, damping = (
+        number("sd", sd, least=0.0, most=_LARGEST_NOISE),
+        number("damping", damping, least=0.0, most=_LARGEST_DAMPING),
+    )
     seed = count("seed", seed, 0, LARGEST_SEED)
     feet = poses(robot, robot.from_gait(gait), FEET, base=robot.base_of(gait))
     feet[..., :3, 3] += np.random.default_rng(seed).normal(scale=sd, size=(*feet.shape[:2], 3))

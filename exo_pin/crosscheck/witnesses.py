@@ -48,6 +48,8 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
     if robot.body is None or robot.base != "fixed":
         raise DescriptionError("the witness needs a robot that load_robot made with a fixed base")
     q = real("q", q, ("n", robot.nq))
+    if not len(q):
+        raise DescriptionError("q holds no configuration")
     few = q[np.unique(np.linspace(0, len(q) - 1, _SAMPLES).astype(int))]
     body, order = robot.body, robot.hip_order
 

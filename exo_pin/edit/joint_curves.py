@@ -36,7 +36,8 @@ def retimed(gait: Gait, *, duration: float | None = None, factor: float | None =
     if (duration is None) == (factor is None):
         raise GaitError("retimed needs either a duration [s] or a factor")
     if factor is None:
-        ratio = number("duration", duration or 0.0, above=0.0, error=GaitError) / gait.duration
+        length = 0.0 if duration is None else duration
+        ratio = number("duration", length, above=0.0, error=GaitError) / gait.duration
     else:
         ratio = number("factor", factor, above=0.0, error=GaitError)
     return _recorded(gait.slowed(ratio), f"retimed x{ratio:.4g}")

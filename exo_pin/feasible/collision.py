@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from exo_pin.arguments import real
 from exo_pin.arrays import Array
+from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 
 _CHAIN = ("pelvis", "thigh", "shank", "sole_plate", "toe_plate")
@@ -40,6 +41,8 @@ def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:
         DescriptionError: The shape of q does not fit, or a number is not finite.
     """
     rows = real("q", q, ("n", robot.nq))
+    if not len(rows):
+        raise DescriptionError("q holds no configuration")
     geometry = pin.buildGeomFromUrdfString(robot.model, robot.urdf, pin.GeometryType.COLLISION)
     links = [item.name.rsplit("_", 1)[0] for item in geometry.geometryObjects]  # "left_thigh_0"
     pairs = [

@@ -91,7 +91,7 @@ def spatiotemporal(
     """
     t, p = frozen(time, "time"), real("heels", heels, gaps=True, error=GaitError).copy()
     check_time(t, periodic=False)
-    if until != math.inf:
+    if not (isinstance(until, float) and until == math.inf):
         number("until", until, error=GaitError)
     if p.ndim != 3 or p.shape[:2] != (len(t), 2) or p.shape[2] not in (2, 3):
         raise GaitError(f"heels have shape {p.shape}, expected ({len(t)}, 2, 3)")

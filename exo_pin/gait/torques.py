@@ -64,6 +64,8 @@ class Torques:
             GaitError: None of the times lies within the samples: the two clocks differ; or one is not finite.
         """
         times = real("time", time, ("m",), error=GaitError)
+        if not len(times):
+            return np.empty((0, len(JOINTS)))
         rounding = 1e-6 + 1e-3 * float(np.diff(self.time).min())  # files round their times
         inside = (times >= self.time[0] - rounding) & (times <= self.time[-1] + rounding)
         if not inside.any():

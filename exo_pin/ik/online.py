@@ -17,14 +17,16 @@ from exo_pin.arrays import Array, Index
 from exo_pin.errors import DescriptionError
 from exo_pin.ik.least_squares.nearest_posture import NearestPosture, bare_legs
 from exo_pin.ik.leg.scalar import approximate_formula, exact_formula
-from exo_pin.ik.targets import is_pose, pose_array
+from exo_pin.ik.targets import is_pose, pose_array, target_numbers
 from exo_pin.robot import Robot
 from exo_pin.robot.floating_base import FREE, base_coordinates, base_poses
 from exo_pin.robot.leg_axes import LEG_JOINTS, LegAxes
 from exo_pin.robot.subtree import frame_index
 
 _MOST_STEPS = 1_000_000  # damped steps for a sample: beyond, a number is a slip
-_asarray, _forward_kinematics = np.asarray, pin.framesForwardKinematics  # found once: an inner loop
+_LARGEST_TOLERANCE = 1e3
+_FLOAT, _POSE = np.dtype(float), (4, 4)
+_forward_kinematics = pin.framesForwardKinematics  # found once: an inner loop
 
 
 class Online:
@@ -70,7 +72,9 @@ class Online:
             UnknownNameError: A frame is unknown.
         """
         frames = names("frames", frames)
-        number("tolerance", tolerance, above=0.0)
+        if not frames:
+            raise DescriptionError("no frame was given; name at least one")
+        number("tolerance", tolerance, above=0.0, most=_LARGEST_TOLERANCE)
         count("max_iterations", max_iterations, 1, _MOST_STEPS)
         if dt is not None:
             number("dt", dt, above=0.0)
@@ -103,14 +107,17 @@ class Online:
         Args:
             targets: T_world_frame (4, 4), one for each frame.
             base: T_world_pelvis (4, 4) from this step on; where it was if left out.
+
+        Raises:
+            DescriptionError: The number of targets or a shape is wrong, or a target holds no real numbers.
         """
         if len(targets) != len(self._tips):
             raise DescriptionError(f"{len(targets)} targets were given for {len(self._tips)} frames")
         if base is not None:
             self._carry = self._standing(base)
         if self._carry is not None:
-            targets = tuple(self._carry @ _asarray(T, float) for T in targets)
-        numbers = [_asarray(T, float).ravel().tolist() for T in targets]
+            targets = tuple(self._carry @ _pose(T) for T in targets)
+        numbers = [_pose(T).ravel().tolist() for T in targets]
         if self._exact:
             angles: list[float] = []
             for solve, T in zip(self._formulas, numbers):  # noqa: B905  # counted above, and strict costs time
@@ -164,7 +171,7 @@ class Online:
         if base is None:
             T = base_poses(self.q)
         else:
-            T = _asarray(base, float)
+            T = real("base", base)
             if T.shape != (4, 4) or not is_pose(T.ravel().tolist()):
                 T = pose_array("base", T[None])[0]  # straightened, or refused with the reason
             if robot.base == "floating":
@@ -178,6 +185,19 @@ class Online:
         """The arguments and the state: Pinocchio's data and the bound formulas are made again."""
         state = self.reached, self.slowed, self.reached_by_foot
         return _restored, (self._robot, self.q, {**self._options, "base": self._base}, state)
+
+
+def _pose(T: npt.ArrayLike) -> Array:
+    """A target (4, 4), whatever numbers it holds.
+
+    Raises:
+        DescriptionError: It has another shape, or holds no real numbers.
+    """
+    if type(T) is not np.ndarray or T.dtype is not _FLOAT:
+        T = target_numbers("target", T)
+    if T.shape != _POSE:
+        raise DescriptionError(f"a target has shape {T.shape}; (4, 4) is accepted")
+    return T
 
 
 def _restored(robot: Robot, q: Array, options: dict[str, Any], state: tuple[Any, ...]) -> Online:

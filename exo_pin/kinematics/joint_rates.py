@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin import signals
-from exo_pin.arguments import number
+from exo_pin.arguments import count, number, real
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, time_series
@@ -72,7 +72,14 @@ def smoothed_curves(
         cutoff: Low-pass [Hz]; None: no filter.
         order: Of both passes together.
         what: What the curves are, the sentence's first word.
+
+    Raises:
+        GaitError: The shape of the curves does not fit the walk, or a number is not finite.
     """
+    q = real("q", q, (len(gait), "m"), error=GaitError)
+    count("order", order, 2, 8, error=GaitError)
+    if cutoff is not None:
+        number("cutoff", cutoff, above=0.0, error=GaitError)
     if cutoff is None:
         return q, f"{what} not filtered: accelerations carry the recording's noise."
     even = np.linspace(gait.time[0], gait.time[-1], len(gait))

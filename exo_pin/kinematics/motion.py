@@ -231,7 +231,8 @@ def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
     """
     q = robot.configurations(q)
     shape = q.shape[:-1]
-    return robot.unit_quaternion(q.reshape(-1, robot.nq)), shape
+    rows = q.reshape(-1, robot.nq)
+    return rows if robot.base == "fixed" else robot.unit_quaternion(rows), shape
 
 
 def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:

@@ -1,0 +1,431 @@
+"""A right value for every argument of the public functions, small enough to call each many times."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import exo_pin
+from exo_pin import compare, description, devices, feasible, formats, ground, ik, kinematics, retarget
+from exo_pin.anatomy import CORNERS, FEET, JOINTS, Body
+from exo_pin.formats import Markers, ReadOptions
+from exo_pin.gait import Gait, Number, StrideEstimate, Torques, normative_gait
+from exo_pin.markers.marker_sets import SETS
+
+_SAMPLES = 18
+
+
+class Examples:
+    """Right values, made when they are first used; files lie in one folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def of(self, function: str, argument: str) -> Any:
+        """The value for an argument: the function's own entry, else what the argument's name means.
+
+        Raises:
+            KeyError: There is none; add one.
+        """
+        if function == "anatomy.Body":
+            return getattr(self.body, argument)
+        own = _OWN.get(f"{function}.{argument}")
+        return (own or _BY_NAME[argument])(self)
+
+    def has(self, function: str, argument: str) -> bool:
+        return function == "anatomy.Body" or f"{function}.{argument}" in _OWN or argument in _BY_NAME
+
+    def instance(self, owner: type) -> Any:
+        """A record whose methods are called."""
+        return _INSTANCES[owner.__name__](self)
+
+    @functools.cached_property
+    def body(self) -> Body:
+        return Body.from_stature()
+
+    @functools.cached_property
+    def robot(self) -> Any:
+        return exo_pin.load_robot()
+
+    @functools.cached_property
+    def gait(self) -> Gait:
+        return normative_gait(samples=_SAMPLES)
+
+    @functools.cached_property
+    def q(self) -> Any:
+        return self.robot.from_gait(self.gait)[:3]
+
+    @functools.cached_property
+    def feet(self) -> Any:
+        return exo_pin.poses(self.robot, self.q, base=self.gait.base[:3])
+
+    @functools.cached_property
+    def placed(self) -> Any:
+        return ground.place_walk(self.robot, self.gait)
+
+    @functools.cached_property
+    def com_pelvis(self) -> Any:
+        return kinematics.center_of_mass(self.robot, self.robot.from_gait(self.gait)).position
+
+    @functools.cached_property
+    def feet_in_pelvis(self) -> Any:
+        return exo_pin.poses(self.robot, self.robot.from_gait(self.gait), (*FEET, *CORNERS))
+
+    @functools.cached_property
+    def curves(self) -> Any:
+        """Time (n,) and heels (n, 2, 3) of a long even recording."""
+        walk = normative_gait(samples=50).repeated(3)
+        feet = exo_pin.poses(self.robot, self.robot.from_gait(walk), base=walk.base)[..., :3, 3]
+        feet[..., 0] += 1.2 * walk.time[:, None]
+        return walk.time, feet, walk.events, walk.base[:, :3, 3]
+
+    @functools.cached_property
+    def along(self) -> Any:
+        """Heels and toes (n, 2) ahead of the pelvis."""
+        time, heels, _, _ = self.curves
+        ahead = heels[..., 0] - 1.2 * time[:, None]
+        return ahead, ahead + 0.2
+
+    @functools.cached_property
+    def trial(self) -> Markers:
+        names = (
+            tuple(SETS["gait2392"].spots) if "gait2392" in SETS else tuple(next(iter(SETS.values())).spots)
+        )
+        places = np.arange(3.0 * len(names)).reshape(1, -1, 3) / 100 + np.zeros((3, 1, 1))
+        return Markers(np.arange(3.0) / 100, names, places)
+
+    @functools.cached_property
+    def torques(self) -> Torques:
+        return Torques(self.gait.time, np.ones((_SAMPLES, len(JOINTS))))
+
+    @functools.cached_property
+    def loss(self) -> Any:
+        return compare.compare(self.gait, ["planar5"]).best[0]
+
+    @functools.cached_property
+    def feasibility(self) -> Any:
+        return feasible.feasible(self.gait)
+
+    @functools.cached_property
+    def stride(self) -> StrideEstimate:
+        return StrideEstimate("left", 0.0, 1.0, "heel strikes")
+
+    @functools.cached_property
+    def walk_file(self) -> Path:
+        path = self.folder / "walk.csv"
+        formats.save_gait(self.gait, path)
+        return path
+
+    @functools.cached_property
+    def poses(self) -> Any:
+        return formats.Poses(self.gait.time[:3], self.gait.base[:3], {"left_foot": self.feet[:, 0]})
+
+    @functools.cached_property
+    def pose_file(self) -> Path:
+        path = self.folder / "poses.csv"
+        formats.save_poses(self.poses, path)
+        return path
+
+    @functools.cached_property
+    def body_file(self) -> Path:
+        path = self.folder / "body.toml"
+        self.body.save(path)
+        return path
+
+    @functools.cached_property
+    def device_file(self) -> Path:
+        path = self.folder / "device.toml"
+        path.write_text('name = "own"\njoints = ["left_knee_flexion"]\nsource = "an example"\n')
+        return path
+
+    @functools.cached_property
+    def urdf_file(self) -> Path:
+        path = self.folder / "robot.urdf"
+        path.write_text(self.robot.urdf)
+        return path
+
+    @functools.cached_property
+    def compared(self) -> Any:
+        return compare.compare(self.gait, ["planar5"])
+
+    @functools.cached_property
+    def retargeted(self) -> Any:
+        return retarget.retarget(self.gait, "talos")
+
+
+_NUMBERS = {"speed": Number(1.2, 0.1, 4, "m/s")}
+_TIME = np.arange(40.0) / 100
+_WAVES = np.stack([np.sin(9 * _TIME), np.cos(7 * _TIME)], axis=1)
+
+_BY_NAME: Mapping[str, Any] = {
+    "acceleration": lambda e: 150.0,
+    "after": lambda e: 1.0,
+    "base": lambda e: e.gait.base[:3],
+    "before": lambda e: 1.0,
+    "body": lambda e: e.body,
+    "clearance": lambda e: 1.05,
+    "columns": lambda e: ("time",),
+    "content": lambda e: "gait",
+    "conditions": lambda e: compare.Conditions(),
+    "cutoff": lambda e: 6.0,
+    "cycles": lambda e: 2.0,
+    "damping": lambda e: 0.01,
+    "ddq": lambda e: np.ones((3, e.robot.model.nv)),
+    "device": lambda e: "exo12",
+    "devices": lambda e: ("planar5",),
+    "dq": lambda e: np.ones((3, e.robot.model.nv)),
+    "dt": lambda e: 1e-3,
+    "events": lambda e: e.gait.events,
+    "factor": lambda e: 1.1,
+    "factors": lambda e: {"knee_flexion": 0.9},
+    "first": lambda e: e.gait,
+    "frame": lambda e: "left_foot",
+    "frames": lambda e: ("left_foot", "right_foot"),
+    "gait": lambda e: e.gait,
+    "gap": lambda e: 0.01,
+    "ground": lambda e: 0.0,
+    "height": lambda e: 640,
+    "hip_order": lambda e: "clinical",
+    "joint": lambda e: "left_knee_flexion",
+    "knee": lambda e: "stop",
+    "landmark": lambda e: "lateral_epicondyle",
+    "least": lambda e: 0.01,
+    "leg_length": lambda e: 0.9,
+    "like": lambda e: e.gait,
+    "limit": lambda e: 0.2,
+    "mapping": lambda e: {},
+    "mass": lambda e: 70.0,
+    "model": lambda e: None,
+    "movement": lambda e: "knee_flexion",
+    "name": lambda e: "some_name",
+    "numbers": lambda e: _NUMBERS,
+    "order": lambda e: 4,
+    "passive": lambda e: "held",
+    "path": lambda e: e.walk_file,
+    "pelvis": lambda e: "recorded",
+    "preset": lambda e: "exo_pin",
+    "q": lambda e: e.q,
+    "q0": lambda e: e.q[0],
+    "robot": lambda e: e.robot,
+    "second": lambda e: e.gait,
+    "seconds": lambda e: 1.0,
+    "seed": lambda e: 1,
+    "sex": lambda e: "male",
+    "share": lambda e: 0.4,
+    "side": lambda e: "left",
+    "smallest_excursion": lambda e: 0.05,
+    "speed": lambda e: "free",
+    "stature": lambda e: 1.8,
+    "stride": lambda e: 1.05,
+    "style": lambda e: "carried",
+    "subject": lambda e: "the gait",
+    "support": lambda e: "carried",
+    "tolerance": lambda e: 1e-6,
+    "torques": lambda e: e.torques,
+    "units": lambda e: "deg",
+    "source": lambda e: "a source",
+    "title": lambda e: "a title",
+    "unit": lambda e: "m",
+}
+"""What an argument of that name takes."""
+
+_OWN: Mapping[str, Any] = {
+    "anatomy.Body.load.path": lambda e: e.body_file,
+    "anatomy.Body.save.path": lambda e: e.folder / "saved.toml",
+    "compare.Loss.in_phases.errors": lambda e: np.ones((_SAMPLES, 2)),
+    "crosscheck.errors_by_step.sample": lambda e: 1,
+    "crosscheck.recover_noisy.sd": lambda e: 0.001,
+    "demand.peak_demands.joints": lambda e: JOINTS[:2],
+    "demand.peak_demands.required": lambda e: np.ones((3, 2)),
+    "demand.peak_demands.available": lambda e: np.ones(2),
+    "description.expand.values": lambda e: description.arguments(e.body),
+    "devices.Actuator.effort": lambda e: 100.0,
+    "devices.Actuator.velocity": lambda e: 5.0,
+    "devices.Device.joints": lambda e: JOINTS[:2],
+    "devices.Device.passive": lambda e: JOINTS[2:3],
+    "devices.Device.pelvis": lambda e: "held",
+    "devices.Device.actuators": lambda e: {"hip_flexion": devices.Actuator(100.0, 5.0)},
+    "devices.Device.ranges": lambda e: {"hip_flexion": (-0.5, 1.0)},
+    "devices.Device.treadmill": lambda e: (0.1, 1.0),
+    "devices.Device.statures": lambda e: (1.5, 1.9),
+    "devices.Device.masses": lambda e: (40.0, 100.0),
+    "devices.Device.thighs": lambda e: (0.3, 0.5),
+    "devices.Device.shanks": lambda e: (0.3, 0.5),
+    "devices.Device.hip_breadths": lambda e: (0.2, 0.5),
+    "devices.load.path": lambda e: e.device_file,
+    "devices.Device.hip_widths": lambda e: (0.2, 0.3),
+    "devices.Device.range_of.own": lambda e: (-0.5, 1.0),
+    "devices.both.movements": lambda e: "knee_flexion",
+    "devices.subset.movements": lambda e: ("knee_flexion",),
+    "dh.of_device.angles": lambda e: {name: e.q[:, k] for k, name in enumerate(JOINTS)},
+    "edit.filtered.gait": lambda e: e.gait,
+    "edit.ramped.start": lambda e: 1.0,
+    "edit.ramped.stop": lambda e: 1.0,
+    "edit.retimed.factor": lambda e: None,
+    "edit.retimed.duration": lambda e: 1.1,
+    "feasible.Feasibility.phases.mask": lambda e: np.ones(_SAMPLES, dtype=bool),
+    "formats.Poses.time": lambda e: e.gait.time[:3],
+    "formats.Poses.targets": lambda e: {"left_foot": e.feet[:, 0]},
+    "formats.Poses.events": lambda e: (),
+    "formats.load_poses.path": lambda e: e.pose_file,
+    "formats.save_gait.path": lambda e: e.folder / "saved.csv",
+    "formats.save_poses.poses": lambda e: e.poses,
+    "formats.save_poses.path": lambda e: e.folder / "saved_poses.csv",
+    "formats.ReadOptions.row_rate": lambda e: 100.0,
+    "formats.ReadOptions.mapping": lambda e: {"a": "left_knee_flexion"},
+    "formats.ReadOptions.pelvis_order": lambda e: ("tilt", "list", "rotation"),
+    "gait.Event.time": lambda e: 0.5,
+    "gait.Event.kind": lambda e: "heel_strike",
+    "gait.ForcePlate.time": lambda e: np.arange(3.0),
+    "gait.ForcePlate.force": lambda e: np.ones((3, 3)),
+    "gait.ForcePlate.point": lambda e: np.ones((3, 3)),
+    "gait.ForcePlate.moment": lambda e: np.ones((3, 3)),
+    "gait.Gait.time": lambda e: e.gait.time,
+    "gait.Gait.q": lambda e: e.gait.q,
+    "gait.Gait.base": lambda e: e.gait.base,
+    "gait.Gait.resampled.n": lambda e: 20,
+    "gait.Gait.sampled.rate": lambda e: 50.0,
+    "gait.Gait.repeated.k": lambda e: 2,
+    "gait.Gait.slowed.f": lambda e: 1.5,
+    "gait.Markers.time": lambda e: e.trial.time,
+    "gait.Markers.names": lambda e: e.trial.names,
+    "gait.Markers.position": lambda e: e.trial.position,
+    "gait.Markers.up": lambda e: "+z",
+    "gait.Markers.angles": lambda e: {"LHipAngles": np.ones((3, 3))},
+    "gait.Markers.events": lambda e: (),
+    "gait.Markers.of.name": lambda e: e.trial.names[0],
+    "gait.Markers.renamed.mapping": lambda e: {e.trial.names[0]: "NEW"},
+    "gait.Markers.turned.R": lambda e: np.eye(3),
+    "gait.Number.of.values": lambda e: np.arange(3.0),
+    "gait.StrideEstimate.cycles.start": lambda e: 0.0,
+    "gait.StrideEstimate.cycles.end": lambda e: 3.0,
+    "gait.Torques.time": lambda e: e.gait.time,
+    "gait.Torques.tau": lambda e: np.ones((_SAMPLES, 12)),
+    "gait.Torques.at.time": lambda e: e.gait.time[:4],
+    "gait.cycles.points": lambda e: 21,
+    "gait.normative_gait.samples": lambda e: 20,
+    "gait.normative_sd.samples": lambda e: 20,
+    "gait.speed_named.name": lambda e: "free",
+    "gait.spatiotemporal.time": lambda e: e.curves[0],
+    "gait.spatiotemporal.heels": lambda e: e.curves[1],
+    "gait.spatiotemporal.events": lambda e: e.curves[2],
+    "gait.spatiotemporal.pelvis": lambda e: e.curves[3][:, :2],
+    "gait.spatiotemporal.until": lambda e: 2.0,
+    "gait.zeni.time": lambda e: e.curves[0],
+    "gait.zeni.heel_forward": lambda e: e.along[0],
+    "gait.zeni.toe_forward": lambda e: e.along[1],
+    "ground.belt_speed.base": lambda e: e.placed.base,
+    "ground.belt_speed.corners": lambda e: e.placed.corners,
+    "ground.estimated_stance.heights": lambda e: ground.lowest_corners(e.placed.corners),
+    "ground.lowest_corners.positions": lambda e: e.placed.corners,
+    "ground.place.q": lambda e: e.robot.from_gait(e.gait),
+    "ground.place.base": lambda e: e.gait.base,
+    "ground.place.T_pelvis": lambda e: e.feet_in_pelvis,
+    "ground.place.com_pelvis": lambda e: e.com_pelvis,
+    "ground.standing.intervals": lambda e: e.placed.stance,
+    "ground.standing.time": lambda e: e.gait.time,
+    "ground.support.base": lambda e: e.placed.base,
+    "ground.support.corners": lambda e: e.placed.corners,
+    "ground.support.stance": lambda e: e.placed.stance,
+    "ground.transformed.T": lambda e: e.feet[:, 0],
+    "ground.transformed.points": lambda e: np.ones((3, 3)),
+    "ik.Dls.max_iterations": lambda e: 50,
+    "ik.Dls.restarts": lambda e: 1,
+    "ik.Dls.position_weight": lambda e: 1.0,
+    "ik.Dls.rotation_weight": lambda e: 1.0,
+    "ik.Auto.dls": lambda e: ik.Dls(),
+    "ik.Online.base": lambda e: e.gait.base[0],
+    "ik.Online.max_iterations": lambda e: 8,
+    "ik.Online.step.targets": lambda e: e.feet[0, 0],
+    "ik.Online.step.base": lambda e: e.gait.base[0],
+    "ik.Points.local": lambda e: np.eye(3),
+    "ik.Points.p": lambda e: np.ones((3, 3, 3)),
+    "ik.Points.weight": lambda e: np.ones(3),
+    "ik.Pose.T": lambda e: e.feet[:, 0],
+    "ik.Pose.position_weight": lambda e: 1.0,
+    "ik.Pose.rotation_weight": lambda e: 1.0,
+    "ik.Position.p": lambda e: np.ones((3, 3)),
+    "ik.Position.weight": lambda e: 1.0,
+    "ik.solve.targets": lambda e: {"left_foot": e.feet[0, 0]},
+    "ik.solve.base": lambda e: e.gait.base[0],
+    "ik.track.targets": lambda e: {"left_foot": e.feet[:, 0]},
+    "kinematics.attitude.relative_to": lambda e: "pelvis",
+    "kinematics.sole_slide.time": lambda e: e.gait.time,
+    "kinematics.sole_slide.points": lambda e: e.placed.corners[:, :4].reshape(-1, 2, 2, 3),
+    "kinematics.sole_slide.standing": lambda e: np.ones((_SAMPLES, 2), dtype=bool),
+    "kinematics.sole_slide.ground": lambda e: np.zeros(2),
+    "markers.MarkerSet.hips": lambda e: "davis",
+    "markers.MarkerSet.spots": lambda e: dict(next(iter(SETS.values())).spots),
+    "markers.MarkerSet.also": lambda e: {next(iter(next(iter(SETS.values())).spots)): ("OTHER",)},
+    "markers.MarkerSet.names.marker": lambda e: e.trial.names[0],
+    "markers.Spot.segment": lambda e: "thigh",
+    "markers.Spot.place": lambda e: (0.1, 0.0, -0.5),
+    "markers.Spot.spread": lambda e: 0.01,
+    "markers.find_set.name": lambda e: next(iter(SETS)),
+    "markers.recognise.names": lambda e: e.trial.names,
+    "markers.reconstruct.trial": lambda e: e.trial,
+    "report.comparison.compared": lambda e: e.compared,
+    "report.comparison.speeds": lambda e: {"free": e.compared},
+    "report.walk.normal": lambda e: "free",
+    "retarget.Target.file": lambda e: e.urdf_file,
+    "retarget.Target.feet": lambda e: ("left_foot", "right_foot"),
+    "retarget.Target.forward": lambda e: "+x",
+    "retarget.Target.up": lambda e: "+z",
+    "retarget.Target.stand": lambda e: {"left_knee_flexion": 0.1},
+    "retarget.Target.limits": lambda e: {"left_knee_flexion": (0.0, 1.0)},
+    "retarget.Target.locked": lambda e: ("left_ankle_inversion",),
+    "retarget.Target.paint": lambda e: (0.1, 0.2, 0.3, 1.0),
+    "retarget.find.target": lambda e: "talos",
+    "retarget.load.target": lambda e: "talos",
+    "robot.Robot.q.angles": lambda e: {"left_knee_flexion": 0.3},
+    "robot.load_robot.base": lambda e: "fixed",
+    "robot.Robot.to_gait.q": lambda e: e.robot.from_gait(e.gait),
+    "kinematics.smoothed_curves.q": lambda e: e.gait.q,
+    "crosscheck.inverse_dynamics.n": lambda e: 2,
+    "study.plan.conditions": lambda e: (compare.Conditions(),),
+    "robot.load_urdf.source": lambda e: e.urdf_file,
+    "robot.load_urdf.base": lambda e: "fixed",
+    "robot.load_urdf.placement": lambda e: np.eye(4),
+    "robot.load_urdf.path": lambda e: None,
+    "signals.lowpass.time": lambda e: _TIME,
+    "signals.lowpass.y": lambda e: _WAVES,
+    "signals.filled.time": lambda e: _TIME,
+    "signals.filled.y": lambda e: _WAVES,
+    "signals.longest_run.good": lambda e: np.ones(5, dtype=bool),
+    "signals.spikes.time": lambda e: _TIME,
+    "signals.spikes.y": lambda e: _WAVES,
+    "signals.outliers.time": lambda e: _TIME,
+    "signals.outliers.y": lambda e: _WAVES,
+    "signals.outliers.names": lambda e: ("a", "b"),
+    "study.bodies.of": lambda e: (1.7,),
+    "study.plan.of": lambda e: (1.7,),
+    "study.plan.speeds": lambda e: ("free",),
+    "study.statures.low": lambda e: 1.5,
+    "study.statures.high": lambda e: 1.7,
+    "study.statures.step": lambda e: 0.1,
+    "viewer.SceneOptions.speed": lambda e: 1.0,
+    "viewer.scene.speed": lambda e: 1.0,
+    "viewer.retargeted.speed": lambda e: 1.0,
+    "viewer.retargeted.walk": lambda e: e.retargeted,
+}
+"""Values that one function alone takes: `room.function.argument`."""
+
+_INSTANCES: Mapping[str, Any] = {
+    "Body": lambda e: e.body,
+    "Device": lambda e: devices.find("exo12"),
+    "Feasibility": lambda e: e.feasibility,
+    "Gait": lambda e: e.gait,
+    "Loss": lambda e: e.loss,
+    "MarkerSet": lambda e: next(iter(SETS.values())),
+    "Markers": lambda e: e.trial,
+    "Number": lambda e: _NUMBERS["speed"],
+    "Online": lambda e: ik.Online(e.robot, frames=("left_foot",)),
+    "ReadOptions": lambda e: ReadOptions(),
+    "Robot": lambda e: e.robot,
+    "StrideEstimate": lambda e: e.stride,
+    "Torques": lambda e: e.torques,
+}
