@@ -40,6 +40,7 @@ COMMANDS = {
     "study": "all devices under many walks and on many bodies: a table and a page",
     "retarget": "a walk as joint angles of a humanoid",
     "feasible": "whether a device can do a walk with a person",
+    "simulate": "the exoskeleton walks by torques: verdict, motors, the patient's part",
     "doctor": "what is installed here, what is missing, and the cure",
     "dh": "the Denavit-Hartenberg table for a body",
     "cache": "what is kept between runs, and its deletion",

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from typing import Any
 
 from exo_pin.anatomy import FEET
+from exo_pin.anatomy.names import Side
 from exo_pin.simulation.energy import balance
+from exo_pin.simulation.side_numbers import SideNumbers, by_side
 from exo_pin.simulation.simulated_walk import SimulatedWalk
 from exo_pin.simulation.walk_verdict import Numbers, Verdict, numbers, verdict
 from exo_pin.simulation.witness import witness
@@ -26,6 +29,11 @@ class Run(SimulatedWalk):
         return numbers(self)
 
     @cached_property
+    def by_side(self) -> dict[Side, SideNumbers]:
+        """Tracking and effort of each leg."""
+        return by_side(self)
+
+    @cached_property
     def verdict(self) -> Verdict:
         """Whether it walks, stumbles, falls or diverges, and why."""
         return verdict(self, self.numbers)
@@ -41,12 +49,16 @@ class Run(SimulatedWalk):
         return witness(self.robot, self.record, self.floor, self.timestep)
 
     def facts(self) -> dict[str, Any]:
-        """Plain values for JSON."""
+        """Plain values for JSON; null where a run has no such number."""
+        return {name: _with_nulls(value) for name, value in self._facts().items()}
+
+    def _facts(self) -> dict[str, Any]:
         return {
             "verdict": self.verdict.word,
             "why": self.verdict.why,
             "time_end_s": float(self.time[-1]),
             **self.numbers.facts(),
+            "by_side": {side: numbers.facts() for side, numbers in self.by_side.items()},
             "energy_balance_percent": self.energy_balance_percent,
             "witness": self.witness,
             "real_time_factor": float(self.time[-1] / self.cpu_time) if self.cpu_time else None,
@@ -57,3 +69,10 @@ class Run(SimulatedWalk):
             "body_weight_support_N": self.body_weight_support * self.weight,
             "feet": list(FEET),
         }
+
+
+def _with_nulls(value: Any) -> Any:
+    """Plain values with None for numbers that are not finite, which JSON does not have."""
+    if isinstance(value, dict):
+        return {name: _with_nulls(entry) for name, entry in value.items()}
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -64,9 +64,8 @@ class Numbers:
     motor_share: float
 
     def facts(self) -> dict[str, Any]:
-        """Plain values for JSON; null where a run has no such number."""
-        plain = {_KEYS.get(name, name): value for name, value in asdict(self).items()}
-        return {k: None if isinstance(x, float) and not np.isfinite(x) else x for k, x in plain.items()}
+        """Plain values for JSON; NaN where a run has no such number."""
+        return {_KEYS.get(name, name): value for name, value in asdict(self).items()}
 
 
 _KEYS = {"peak_torque": "peak_torque_Nm", "motor_rms": "motor_rms_Nm"}
@@ -75,8 +74,8 @@ _KEYS = {"peak_torque": "peak_torque_Nm", "motor_rms": "motor_rms_Nm"}
 
 def numbers(run: SimulatedWalk) -> Numbers:
     """The numbers of a run."""
-    rows = _counted(run)
-    driven = _driven(run)
+    rows = counted(run)
+    driven = driven_joints(run)
     error = np.degrees(run.q - run.reference.q[: len(run.q)])[rows][:, driven]
     motor, person = run.motor[rows][:, driven], run.person[rows][:, driven]
     names = [JOINTS[k] for k in np.flatnonzero(driven)]
@@ -125,7 +124,7 @@ def verdict(run: SimulatedWalk, found: Numbers) -> Verdict:
     )
 
 
-def _counted(run: SimulatedWalk) -> slice:
+def counted(run: SimulatedWalk) -> slice:
     """The steps that count: from the second cycle on, all of a recording and of a free pelvis."""
     if not run.gait.periodic or run.support.name == "none":
         return slice(None)
@@ -133,7 +132,8 @@ def _counted(run: SimulatedWalk) -> slice:
     return slice(cycle if len(run.time) > cycle + 1 else 0, None)
 
 
-def _driven(run: SimulatedWalk) -> Mask:
+def driven_joints(run: SimulatedWalk) -> Mask:
+    """`(12,)` which joints have a motor."""
     efforts = dict(zip(run.robot.joints, run.robot.effort, strict=True))
     return np.array([efforts.get(name, 0.0) > 0.0 for name in JOINTS])
 

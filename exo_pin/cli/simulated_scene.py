@@ -1,0 +1,70 @@
+"""The scene of a simulated walk: the run, beside the walk that it was to follow or beside a second run."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from exo_pin.cli import show
+from exo_pin.errors import GaitError
+
+if TYPE_CHECKING:
+    from exo_pin.gait import Torques
+    from exo_pin.simulation import Run
+    from exo_pin.viewer import Scene
+
+_RIGID = (
+    "The soles are rigid: the first peak of the ground reaction is about 40 % higher than people's. "
+    "Torques are those of motors at the joints, not forces at the cuffs."
+)
+
+
+def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
+    """The run with the motors' torques; dashed curves are the walk that was to be followed.
+
+    Args:
+        run: What was simulated.
+        what: The walk and the device, in words.
+        other: A second run as the ghost; None: the walk that was to be followed.
+
+    Raises:
+        GaitError: A run ended at once.
+    """
+    from exo_pin import simulation, viewer
+
+    walk, plan = simulation.walked(run), simulation.wanted(run)
+    options = viewer.SceneOptions(
+        title=f"{what}, simulated: {run.verdict.word} - exo_pin",
+        support="still",  # the simulated pelvis is shown where it was
+        compare=plan if other is None else simulation.walked(other),
+        compare_title="the walk to follow" if other is None else _name(other),
+        notes=(*_notes(run), *(() if other is None else _notes(other)), _RIGID),
+    )
+    return viewer.exoskeleton_scene(
+        run.robot,
+        walk,
+        options,
+        reference=plan,
+        reference_title="the walk to follow",
+        torques=_torques(run),
+    )
+
+
+def _name(run: Run) -> str:
+    patient = "no patient" if run.patient is None else run.patient.name
+    return show.plain(f"{run.controller}, {patient}")
+
+
+def _notes(run: Run) -> tuple[str, ...]:
+    return (f"{_name(run)}: {run.verdict.word}: {run.verdict.why}.",)
+
+
+def _torques(run: Run) -> Torques | None:
+    """The motors' torques; a note and None where they are beyond what a leg bears."""
+    from exo_pin.simulation import motor_torques
+
+    try:
+        return motor_torques(run)
+    except GaitError as error:
+        print(f"note: the page has no torques: {error}", file=sys.stderr)
+        return None
