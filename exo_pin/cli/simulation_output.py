@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
@@ -66,13 +66,6 @@ def row(run: Run) -> list[str]:
         _pair((x.motor_share for x in sides), 2),
         f"{_number(run.numbers.vertical_force_mean_bw, 2)} of {1.0 - run.body_weight_support:.2f}",
     ]
-
-
-def print_table(runs: Sequence[Run], what: str) -> None:
-    """The table of several runs, one after the other; pairs are the left and the right leg."""
-    first = runs[0]
-    title = f"{what}, support {first.support.name}, {_unloading(first)}; left / right leg"
-    show.table(title, COLUMNS, [row(run) for run in runs])
 
 
 def _conditions(run: Run) -> str:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from exo_pin.cli import (
     last_picture,
@@ -79,13 +81,39 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError(
             f"--cycles is for a walk that repeats; {args.gait} is a recording, walked once"
         )
-    runs = list(_runs(args, robot, walk, drives, people))
     what = f"{show.plain(Path(args.gait).name)} on {show.plain(Path(args.device).stem)}"
-    _print(args, runs, what)
-    _write(args, runs, what)
-    if not (args.table or args.json or args.html or args.output or len(runs) > _MOST_SHOWN):
-        _serve(args, runs, what)
-    return 0 if len(runs) > 1 or runs[0].verdict.word == "walks" else 1
+    found = _Results([], [], [], [])
+    for done in _runs(args, robot, walk, drives, people):
+        found.add(done, keep=len(drives) * len(people) <= _MOST_SHOWN, json=args.json)
+    _print(args, found, what)
+    _write(args, found.runs, what)
+    if not (args.table or args.json or args.html or args.output) and found.runs:
+        _serve(args, found.runs, what)
+    return 0 if len(found.words) > 1 or found.words[0] == "walks" else 1
+
+
+@dataclass(frozen=True, eq=False)
+class _Results:
+    """What is printed of every run, and one or two runs themselves: a run holds some 30 MB.
+
+    Attributes:
+        words: The verdicts.
+        rows: Of the table.
+        facts: For JSON, if asked for.
+        runs: Those that are shown.
+    """
+
+    words: list[str]
+    rows: list[list[str]]
+    facts: list[dict[str, Any]]
+    runs: list[Run]
+
+    def add(self, run: Run, *, keep: bool, json: bool) -> None:
+        """Take what is printed of a run; keep the run itself, or not."""
+        self.words.append(run.verdict.word)
+        self.rows.append(simulation_output.row(run))
+        self.facts.extend([run.facts()] if json else [])
+        self.runs.extend([run] if keep else [])
 
 
 def _check(args: argparse.Namespace, n: int) -> None:
@@ -110,7 +138,7 @@ def _with_stance(person: Robot, gait: Gait, name: str) -> Gait:
 
 def _runs(
     args: argparse.Namespace, robot: Robot, gait: Gait, drives: list[str], people: list[str | None]
-) -> list[Run]:
+) -> Iterator[Run]:
     """All controllers with all patients; names and files are looked at before the first run."""
     from exo_pin.control import find_controller, find_patient
     from exo_pin.simulation import simulate
@@ -119,24 +147,23 @@ def _runs(
     patients = [None if name is None else find_patient(name) for name in people]
     for drive in drives:
         find_controller(drive)
-    done = []
     for drive, patient in product(drives, patients):
-        with simulation_output.progress(
-            f"{drive}, {'no patient' if patient is None else patient.name}"
-        ) as bar:
-            done.append(simulate(robot, gait, drive, patient=patient, after=bar, **conditions))
-    return done
+        who = "no patient" if patient is None else patient.name
+        with simulation_output.progress(f"{drive}, {who}") as bar:
+            run = simulate(robot, gait, drive, patient=patient, after=bar, **conditions)
+        yield run
 
 
-def _print(args: argparse.Namespace, runs: list[Run], what: str) -> None:
+def _print(args: argparse.Namespace, found: _Results, what: str) -> None:
     """JSON, the table, or one run in words."""
+    single = len(found.words) == 1 and not args.table
     if args.json:
-        facts = [run.facts() for run in runs]
-        show.as_json(facts[0] if len(facts) == 1 and not args.table else {"runs": facts})
-    elif args.table or len(runs) > 1:
-        simulation_output.print_table(runs, what)
+        show.as_json(found.facts[0] if single else {"runs": found.facts})
+    elif single:
+        simulation_output.print_run(found.runs[0], what)
     else:
-        simulation_output.print_run(runs[0], what)
+        held = f"{what}, support {args.support}, body-weight support {args.bws:g}"
+        show.table(f"{held}; left / right leg", simulation_output.COLUMNS, found.rows)
 
 
 def _write(args: argparse.Namespace, runs: list[Run], what: str) -> None:
