@@ -39,6 +39,7 @@ COMMANDS = {
     "joints": "which joints of a leg are worth their motor",
     "study": "all devices under many walks and on many bodies: a table and a page",
     "retarget": "a walk as joint angles of a humanoid",
+    "torques": "what every joint of a walk bears: inverse dynamics, shared by motors and person",
     "feasible": "whether a device can do a walk with a person",
     "simulate": "the exoskeleton walks by torques: verdict, motors, the patient's part",
     "doctor": "what is installed here, what is missing, and the cure",

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
+    from exo_pin.anatomy.names import PelvisMotion
     from exo_pin.feasible import DeviceWalk
     from exo_pin.gait import Gait
+    from exo_pin.robot import Robot
 
 
 def add(parser: argparse.ArgumentParser, what: str = "name or device file (default: exo12)") -> None:
@@ -18,6 +21,12 @@ def add(parser: argparse.ArgumentParser, what: str = "name or device file (defau
         parser: Of the command.
         what: Help of `--device`.
     """
+    add_device(parser, what)
+    add_knee(parser)
+
+
+def add_device(parser: argparse.ArgumentParser, what: str = "name or device file (default: exo12)") -> None:
+    """`--device` and `--pelvis`; arguments as of `add`."""
     parser.add_argument("--device", default="exo12", metavar="DEVICE", help=what)
     parser.add_argument(
         "--pelvis",
@@ -25,7 +34,6 @@ def add(parser: argparse.ArgumentParser, what: str = "name or device file (defau
         help="who moves the pelvis: the recorded walk, or the device as it can (default: a device whose "
         "stand has slides does, any other goes with the walk)",
     )
-    add_knee(parser)
 
 
 def add_knee(parser: argparse._ActionsContainer) -> None:
@@ -51,6 +59,35 @@ def answer(args: argparse.Namespace, body: Body, gait: Gait, **more: Any) -> Dev
     from exo_pin.feasible import device_walk
 
     return device_walk(gait, args.device, body, pelvis=args.pelvis, knee=args.knee, **more)
+
+
+def motion(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot, Gait]:
+    """The device's robot, and its motion: its joints copy the walk, and those that it locks stay at zero.
+
+    Args:
+        args: The command line, with the arguments of `add_device`.
+        body: Who wears the device.
+        gait: The walk.
+    """
+    from exo_pin import devices
+    from exo_pin.compare import Conditions, projected, robot_for, walk
+    from exo_pin.feasible import pelvis_by_default
+    from exo_pin.robot import load_robot
+
+    device = devices.find(args.device)
+    pelvis = args.pelvis or pelvis_by_default(device)
+    robot = load_robot(body, device=device.carried())  # the walk itself has the place of the pelvis
+    if not device.locked and pelvis == "recorded":
+        return robot, gait
+    conditions = Conditions(pelvis)
+    copy = projected(walk(gait, body), robot_for(device, body, conditions), conditions).gait
+    print(f"note: {_copied(device.title or device.name, pelvis)}", file=sys.stderr)
+    return robot, copy
+
+
+def _copied(device: str, pelvis: PelvisMotion) -> str:
+    held = "; it holds the pelvis" if pelvis == "device" else ""
+    return f"the joints of {device} copy the walk, those that it locks stay at zero{held}"
 
 
 def print_answer(found: DeviceWalk, before: str = "") -> None:

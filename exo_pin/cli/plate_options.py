@@ -11,6 +11,7 @@ from exo_pin.errors import FormatError, GaitError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
+    from exo_pin.formats import TrialFile
     from exo_pin.gait import Gait
     from exo_pin.gait.trial import ForcePlate
 
@@ -22,8 +23,29 @@ def add(group: argparse._ArgumentGroup) -> None:
         "--forces",
         metavar="FILE",
         help="ground reaction forces of the same trial (.mot .sto .c3d), for heel strikes and toe-offs; "
-        "a C3D without events uses its own",
+        "a C3D without events uses its own; none: not even these",
     )
+
+
+_NONE = "none"
+"""In place of a file: force plates are not used."""
+
+
+def measured(args: argparse.Namespace) -> tuple[ForcePlate, ...]:
+    """The force plates of the command line, or those in the walk's own file, z up; none if there are none.
+
+    Raises:
+        FormatError: The file that is named cannot be read, or holds no forces.
+    """
+    path = source(args)
+    if args.forces == _NONE or not path.suffix:  # a normal walk
+        return ()
+    return _plates(args, path)
+
+
+def source(args: argparse.Namespace) -> Path:
+    """The file of `measured`."""
+    return Path(args.forces or args.gait)
 
 
 def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
@@ -42,12 +64,12 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
             walk is no trial.
     """
     own = Path(args.gait).suffix.lower() == ".c3d" and not walk.periodic
-    if not (args.forces or own):
+    if args.forces == _NONE or not (args.forces or own):
         return walk
     from exo_pin.kinematics import event_differences, with_plates
     from exo_pin.robot import load_robot
 
-    path = Path(args.forces or args.gait)
+    path = source(args)
     if walk.periodic:
         raise FormatError(path, f"measured on a trial, but {args.gait} is one cycle that repeats")
     plates = _plates(args, path)
@@ -63,21 +85,50 @@ def with_plate_events(args: argparse.Namespace, body: Body, walk: Gait) -> Gait:
     try:
         return with_plates(robot, known, plates)
     except GaitError as error:
+        why = _why(walk, plates) or str(error)
         if args.forces:
-            raise FormatError(path, str(error)) from error
-        return _remarked(walk, "its force plates are not used: ", str(error))
+            raise FormatError(path, why) from error
+        return _remarked(walk, "its force plates are not used for events: ", why)
+
+
+def _why(walk: Gait, plates: tuple[ForcePlate, ...]) -> str:
+    """Clock, unit or sign by which plates cannot belong to the walk; empty where it is none of these."""
+    from exo_pin.dynamics.plate_checks import check_plates
+
+    try:
+        check_plates(walk, plates)
+    except GaitError as error:
+        return str(error)
+    return ""
 
 
 def _plates(args: argparse.Namespace, path: Path) -> tuple[ForcePlate, ...]:
-    """The force plates of a file; none where only the walk's own file has them and they cannot be read."""
+    """The force plates of a file, z up; none where only the walk's own file has them, and unreadable ones."""
     from exo_pin.formats import load_forces
 
     try:
-        return load_forces(args.files.open(path, "forces"))
+        file = args.files.open(path, "forces")
+        return _z_up(file, load_forces(file))
     except FormatError:
         if args.forces:
             raise
         return ()  # a file whose unit of length is not known has no plates
+
+
+def _z_up(file: TrialFile, plates: tuple[ForcePlate, ...]) -> tuple[ForcePlate, ...]:
+    """Plates in the axes of the file's own marker trial, turned as its walk is; others are z up already."""
+    from exo_pin.gait.trial import to_z_up
+
+    try:
+        up = file.markers().up
+    except FormatError:
+        return plates
+    if not up or up == "+z":
+        return plates
+    R = to_z_up(up)
+    turned = {name: [getattr(p, name) @ R.T for p in plates] for name in ("force", "point", "moment")}
+    rows = zip(plates, *turned.values(), strict=True)
+    return tuple(dataclasses.replace(p, force=f, point=x, moment=m) for p, f, x, m in rows)
 
 
 def _remarked(walk: Gait, what: str, words: str) -> Gait:

@@ -6,13 +6,17 @@ from exo_pin.control.controllers import CONTROLLERS, find_controller
 from exo_pin.control.passive_moments import passive_moments
 from exo_pin.control.patient import PATIENTS, Patient, shares
 from exo_pin.control.patient_file import find_patient, load_patient
+from exo_pin.control.walk_torques import JointTorque, StrideWork, WalkTorques, stride_work, walk_torques
 
 __all__ = [
     "CONTROLLERS",
     "PATIENTS",
     "Controller",
+    "JointTorque",
     "Patient",
     "Reference",
+    "StrideWork",
+    "WalkTorques",
     "find_controller",
     "find_patient",
     "load_controller",
@@ -21,4 +25,6 @@ __all__ = [
     "raised_where",
     "reset",
     "shares",
+    "stride_work",
+    "walk_torques",
 ]
