@@ -42,6 +42,7 @@ COMMANDS = {
     "torques": "what every joint of a walk bears: inverse dynamics, shared by motors and person",
     "feasible": "whether a device can do a walk with a person",
     "simulate": "the exoskeleton walks by torques: verdict, motors, the patient's part",
+    "size": "which motor and gear bear a walk, and the worst over bodies and speeds",
     "doctor": "what is installed here, what is missing, and the cure",
     "dh": "the Denavit-Hartenberg table for a body",
     "cache": "what is kept between runs, and its deletion",

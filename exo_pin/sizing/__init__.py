@@ -5,8 +5,11 @@ from exo_pin.sizing.joint_load import JointLoad, Spring
 from exo_pin.sizing.motor import Motor
 from exo_pin.sizing.motor_file import example_motors, find_motor, load_motor
 from exo_pin.sizing.walk_sizing import JointSizing, Sizing, joint_loads, size, stride_time
+from exo_pin.sizing.worst_case import QUANTITIES, Case, WorstCase, bodies, worst_cases
 
 __all__ = [
+    "QUANTITIES",
+    "Case",
     "GearedUse",
     "JointLoad",
     "JointSizing",
@@ -14,6 +17,8 @@ __all__ = [
     "Ratios",
     "Sizing",
     "Spring",
+    "WorstCase",
+    "bodies",
     "example_motors",
     "find_motor",
     "fitting_ratios",
@@ -23,4 +28,5 @@ __all__ = [
     "motor_torque",
     "size",
     "stride_time",
+    "worst_cases",
 ]

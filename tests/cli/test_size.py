@@ -1,0 +1,46 @@
+"""`exo-pin size`: its table, its JSON, and one line for what is not accepted."""
+
+import json
+
+import pytest
+
+from exo_pin.cli import main
+
+
+def test_the_walk_is_sized_and_its_ground_reaction_labelled(capsys):
+    assert main(["size", "--motor", "maxon-ec-90-flat-48v", "--gear", "50:1", "--bws", "0.3", "--json"]) == 1
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["ground_reaction"] == "predicted"
+    knee = facts["joints"]["left_knee_flexion"]
+    assert knee["motor"]["given"]["ratio"] == 50.0
+    assert knee["motor"]["given"]["reflected_inertia_kgm2"] == pytest.approx(50**2 * 3.06e-4)
+    assert knee["energy_J_per_stride"] > knee["energy_with_recovery_J_per_stride"]
+    assert not facts["fits"]
+
+
+def test_without_a_motor_the_table_says_that_the_limit_is_a_rectangle(capsys):
+    assert main(["size"]) == 0
+    out = capsys.readouterr().out
+    assert "ground reaction predicted" in out
+    assert "rectangle" in out
+    assert "every joint fits" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--gear", "50:1"], "--motor"),
+        (["--motor", "maxon-ec-90-flat-48v", "--gear", "fast"], "--gear 'fast'"),
+        (["--motor", "maxon-ec-90-flat-48v", "--gear=-50"], "--gear"),
+        (["--motor", "maxon-ec-90-flat-48v", "--gear", "50:0"], "--gear"),
+        (["--motor", "nothing"], "maxon"),
+        (["--motor", "nothing.toml"], "nothing.toml"),
+        (["--bws", "1.5"], "0 to 1"),
+        (["--worst", "--bws", "0.3"], "--worst"),
+    ],
+)
+def test_bad_input_is_one_line(capsys, words, why):
+    assert main(["size", *words]) == 2
+    err = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("note:")]
+    assert len(err) == 1
+    assert why in err[0]
