@@ -71,7 +71,9 @@ class ArchiveFile(TrialFile):
             raise FormatError(
                 path, f"q has shape {q.shape} and {len(joints)} joints; expected {', '.join(JOINTS)}"
             )
-        q = self._numbers("q")[:, [joints.index(joint) for joint in JOINTS]]
+        q = self._numbers("q")
+        if tuple(joints) != JOINTS:
+            q = q[:, [joints.index(joint) for joint in JOINTS]]
         base = self._numbers("base") if "base" in arrays else None
         return to_gait(path, self._numbers("time"), q, base, self._metadata())
 
@@ -84,7 +86,7 @@ class ArchiveFile(TrialFile):
     def _numbers(self, name: str) -> Array:
         if self.arrays[name].dtype.kind not in "fiu":
             raise FormatError(self.path, f"array {name!r} holds no numbers")
-        return self.arrays[name].astype(np.float64)
+        return self.arrays[name].astype(np.float64, copy=False)
 
     def _events(self) -> tuple[Event, ...]:
         names = [f"event_{part}" for part in ("time", "kind", "side", "source")]

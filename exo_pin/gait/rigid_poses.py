@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
+from exo_pin.chunks import for_chunks
 
 _ORTHONORMAL = 1e-6
 """Largest entry of R^T R - I that still counts as a rotation: seven digits, what files carry."""
@@ -16,14 +17,23 @@ _FARTHEST = 1e6
 
 def not_rigid(T: Array) -> int | None:
     """Index of the first of the `(n, 4, 4)` poses that is not rigid, or None if all are."""
+    good = np.empty(len(T), dtype=bool)
+
+    def of_chunk(part: slice) -> None:
+        good[part] = _rigid(T[part])
+
+    for_chunks(len(T), T, of_chunk)
+    return None if good.all() else int(np.argmin(good))
+
+
+def _rigid(T: Array) -> Mask:
+    """`(n,)` whether the `(n, 4, 4)` poses are rigid."""
     R = T[:, :3, :3]
     with np.errstate(invalid="ignore", over="ignore"):  # NaN and huge numbers fail the comparisons below
         skew = np.abs(np.swapaxes(R, 1, 2) @ R - np.eye(3)).max(axis=(1, 2))
-        good = (
-            (skew <= _ORTHONORMAL) & (np.linalg.det(R) > 0) & (np.abs(T[:, :3, 3]) <= _FARTHEST).all(axis=1)
-        )
-    good &= (T[:, 3] == [0.0, 0.0, 0.0, 1.0]).all(axis=1)
-    return None if good.all() else int(np.argmin(good))
+        near = (np.abs(T[:, :3, 3]) <= _FARTHEST).all(axis=1)
+        rotation = (skew <= _ORTHONORMAL) & (np.linalg.det(R) > 0)
+    return np.asarray(rotation & near & (T[:, 3] == [0.0, 0.0, 0.0, 1.0]).all(axis=1))
 
 
 def nearest_pose(T: Array) -> Array:

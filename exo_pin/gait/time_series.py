@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from exo_pin.arrays import Array, Mask
+from exo_pin.chunks import for_chunks
 
 
 def derivative(time: Array, y: Array, order: int, period: float | None) -> Array:
@@ -98,19 +99,23 @@ def _differences(time: Array, y: Array, order: int) -> Array:
     """Differentiate the polynomial through each sample's neighbours: order + 2 points give 2nd order."""
     n = len(time)
     width = min(order + 2, n)
-    if width <= order:
-        return np.zeros_like(y)  # two samples have no second derivative
-    first = np.clip(np.arange(n) - 1, 0, n - width)
-    stencil = first[:, None] + np.arange(width)  # (n, width)
-    away = time[stencil] - time[:, None]
-    scale = np.abs(away).max(axis=1)
-    powers = (away / scale[:, None])[:, None, :] ** np.arange(width)[:, None]  # (n, power, width)
-    right = np.zeros((n, width, 1))
-    right[:, order, 0] = math.factorial(order)
-    weights = np.linalg.solve(powers, right)[:, :, 0] / scale[:, None] ** order
     derivatives = np.zeros_like(y)
-    for i in range(width):
-        derivatives += weights[:, i, None] * y[stencil[:, i]]
+    if width <= order:
+        return derivatives  # two samples have no second derivative
+
+    def of_chunk(part: slice) -> None:
+        at = np.arange(part.start, part.stop)
+        stencil = np.clip(at - 1, 0, n - width)[:, None] + np.arange(width)  # (m, width)
+        away = time[stencil] - time[at, None]
+        scale = np.abs(away).max(axis=1)
+        powers = (away / scale[:, None])[:, None, :] ** np.arange(width)[:, None]  # (m, power, width)
+        right = np.zeros((len(at), width, 1))
+        right[:, order, 0] = math.factorial(order)
+        weights = np.linalg.solve(powers, right)[:, :, 0] / scale[:, None] ** order
+        for i in range(width):
+            derivatives[part] += weights[:, i, None] * y[stencil[:, i]]
+
+    for_chunks(n, y, of_chunk)
     return derivatives
 
 

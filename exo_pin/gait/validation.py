@@ -33,11 +33,20 @@ def read_only(array: Array) -> Array:
 
 
 def frozen(values: ArrayLike, name: str) -> Array:
-    """A read-only copy of real numbers; raises `GaitError` if they are none."""
+    """A read-only copy of real numbers, shared where nothing can change it; `GaitError` if they are none."""
     try:
-        return read_only(np.array(as_floats(values)))
+        array = as_floats(values)
+        return array if _unchangeable(array) else read_only(np.array(array))
     except (TypeError, ValueError):
         raise GaitError(f"{name} is not an array of real numbers") from None
+
+
+def _unchangeable(array: Array) -> bool:
+    """Whether an array is read-only, and all that its memory belongs to: those of a gait, of a file."""
+    owner: object = array
+    while isinstance(owner, np.ndarray) and not owner.flags.writeable:
+        owner = owner.base
+    return owner is None or isinstance(owner, bytes)
 
 
 def duration(time: Array, periodic: bool) -> float:

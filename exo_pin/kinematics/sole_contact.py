@@ -11,6 +11,7 @@ import numpy.typing as npt
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, SIDES
 from exo_pin.arguments import number
 from exo_pin.arrays import Array, Mask
+from exo_pin.chunks import for_chunks
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.heading import headings
@@ -94,19 +95,16 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
     Raises:
         GaitError: There are no gait cycles in the motion; the message gives the objection.
     """
-    base = robot.base_of(gait)
-    T = poses(robot, robot.from_gait(gait), ("pelvis", *CORNERS), base=base)
-    heading = headings(T[:, 0])
-    soles = heels_and_balls(T[:, 1:, :3, 3])
+    soles, pelvis, heading = _soles_and_pelvis(robot, gait)
     height = recorded_height(gait)
-    upright = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
+    upright = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], pelvis[:, :2], heading)
     runner = Runner(upright, gait.q[:, _KNEES], height)
     if gait.base is None:
         # on an upright pelvis swing feet sink below standing ones: legs shorten all the same
-        along = soles - T[:, None, None, 0, :3, 3]
+        along = soles - pelvis[:, None, None]
         shorter = -np.hypot(along[..., 2], np.einsum("nfpk,nk->nfp", along[..., :2], heading))
         soles = np.concatenate([soles[..., :2], shorter[..., None]], axis=-1)
-    feet = Feet(gait.time, soles[:, :, 0], soles[:, :, 1], T[:, 0, :2, 3], heading)
+    feet = upright._replace(heel=soles[:, :, 0], toe=soles[:, :, 1])
     try:
         found = walking_events(feet, periodic=gait.periodic, heights=height is not None, runner=runner)
     except GaitError as error:
@@ -115,6 +113,20 @@ def events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
         raise GaitError(f"{error}{hint}") from error
     counted_strides(dataclasses.replace(gait, events=found))  # refuses a motion without any
     return found
+
+
+def _soles_and_pelvis(robot: Robot, gait: Gait) -> tuple[Array, Array, Array]:
+    """Heels and balls `(n, 2, 2, 3)` and the pelvis `(n, 3)` [m], and its heading `(n, 2)`, in the world."""
+    base, q = robot.base_of(gait), robot.from_gait(gait)
+    soles, pelvis, heading = np.empty((len(q), 2, 2, 3)), np.empty((len(q), 3)), np.empty((len(q), 2))
+
+    def of_chunk(part: slice) -> None:
+        T = poses(robot, q[part], ("pelvis", *CORNERS), base=None if base is None else base[part])
+        soles[part] = heels_and_balls(T[:, 1:, :3, 3])
+        pelvis[part], heading[part] = T[:, 0, :3, 3], headings(T[:, 0])
+
+    for_chunks(len(q), q, of_chunk)
+    return soles, pelvis, heading
 
 
 def recorded_height(gait: Gait) -> Array | None:

@@ -84,11 +84,11 @@ def _found(args: argparse.Namespace) -> _Info:
         gait=gait,
         events_note=judged.events_note,
         differences=args.event_differences,
-        ranges=range_demands(robot, robot.from_gait(gait)),
-        peak_speeds=np.abs(gait.dq).max(axis=0),
+        peak_speeds=np.maximum(gait.dq.max(axis=0), -gait.dq.min(axis=0)),
         numbers=walk_numbers(robot, gait, trials.feet(args, robot, gait)),
         outliers=curve_outliers(gait),
         plausibility=judged.verdict,
+        ranges=range_demands(robot, robot.from_gait(gait)),
         body=body,
         markers=trials.to_json(args),
     )
