@@ -194,7 +194,7 @@ def test_hostile_archives_are_refused_before_memory_is_spent(tmp_path, monkeypat
         load_gait(path)
     assert tracemalloc.get_traced_memory()[1] < BOMB
     tracemalloc.stop()
-    archive(path, time=bytes(200 * 2**20))
+    archive(path, time=bytes(300 * 2**20))
     assert path.stat().st_size < 2**20
     with pytest.raises(FormatError, match="MiB unpacked"):
         load_gait(path)
