@@ -8,13 +8,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import options, show
-from exo_pin.errors import DescriptionError, FormatError
+from exo_pin.cli import device_options, options, own_torques, show
+from exo_pin.errors import DescriptionError
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
-    from exo_pin.dynamics import Dynamics
-    from exo_pin.gait.trial import ForcePlate
     from exo_pin.sizing import GearedUse, JointSizing, Motor, Ratios, Sizing, WorstCase
 
 _EXAMPLES = """examples:
@@ -35,9 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.epilog = _EXAMPLES
     options.add_gait(parser)
-    parser.add_argument(
-        "--device", default="exo12", metavar="DEVICE", help="name or device file (default: exo12)"
-    )
+    device_options.add_device(parser)
     parser.add_argument("--motor", metavar="MOTOR", help="motor file (.toml) or the name of an example")
     parser.add_argument(
         "--gear", metavar="N:1", help="gear ratio of the motor; left out: those that fit are looked for"
@@ -80,15 +76,17 @@ def _ratio(text: str) -> float:
 
 
 def _run_walk(args: argparse.Namespace, motor: Motor | None, ratio: float | None) -> int:
-    from exo_pin import devices, dynamics, sizing
-    from exo_pin.robot import load_robot
+    from exo_pin import sizing
 
+    if not 0.0 <= args.bws <= 1.0:
+        raise DescriptionError(f"--bws is {args.bws:g}; a part of the weight, 0 to 1, is accepted")
     body = options.body_from(args)
     walk = options.gait_from(args, body)
-    robot = load_robot(body, device=devices.find(args.device).carried())
-    known: Dynamics = dynamics.torques(robot, walk, forces=_plates(args), body_weight_support=args.bws)
+    robot, walk = device_options.motion(args, body, walk)
+    walk, _ = options.with_events(robot, walk)
+    known = own_torques.inverse_dynamics(args, robot, walk, body_weight_support=args.bws)
     found = sizing.size(known, stride=sizing.stride_time(robot, walk), motor=motor, ratio=ratio)
-    for remark in found.remarks:
+    for remark in found.remarks[len(known.remarks) :]:
         print(f"note: {show.plain(remark)}", file=sys.stderr)
     if args.json:
         support = {"newtons": known.support_force, "part": args.bws}
@@ -96,21 +94,6 @@ def _run_walk(args: argparse.Namespace, motor: Motor | None, ratio: float | None
     else:
         _print(found, f"{Path(args.gait).name} on {robot.name}, ground reaction {found.reaction}")
     return 0 if found.fits else 1
-
-
-def _plates(args: argparse.Namespace) -> tuple[ForcePlate, ...]:
-    """The force plates of `--forces`, or of a C3D trial itself."""
-    from exo_pin.formats import load_forces
-
-    if args.forces:
-        return load_forces(args.files.open(args.forces, "forces"))
-    if args.gait in SPEEDS or Path(args.gait).suffix.lower() != ".c3d":
-        return ()
-    try:
-        return load_forces(args.files.open(args.gait))
-    except FormatError as error:
-        print(f"note: force plates are not used: {show.plain(str(error))}", file=sys.stderr)
-        return ()
 
 
 def _print(found: Sizing, title: str) -> None:
