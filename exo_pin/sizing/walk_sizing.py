@@ -175,17 +175,28 @@ def size(
         joints.append(_sized(loads[name], float(robot.effort[j]), float(robot.velocity[j]), motor, ratio))
     if not joints:
         raise GaitError("no driven joint of this device has a torque on this walk")
-    remarks = dynamics.remarks
-    if math.isnan(stride):
-        remarks = (*remarks, "No stride time is known: there are no energies per stride.")
     return Sizing(
         joints=tuple(joints),
         passive=tuple(name for name in passive if name in loads),
         motor=motor,
         reaction=dynamics.reaction,
         source=dynamics.source,
-        remarks=remarks,
+        remarks=(*dynamics.remarks, *_remarks(dynamics, stride)),
     )
+
+
+def _remarks(dynamics: Dynamics, stride: float) -> list[str]:
+    """What the numbers of a part of a walk are not."""
+    found = []
+    valid, frames = int(dynamics.valid.sum()), len(dynamics.valid)
+    if valid < frames:
+        found.append(
+            f"Rms and energies are those of the {valid} of {frames} frames that are valid; a whole stride's "
+            "differ where these are not spread evenly over it."
+        )
+    if math.isnan(stride):
+        found.append("No stride time is known: there are no energies per stride.")
+    return found
 
 
 def joint_loads(dynamics: Dynamics, stride: float = math.nan) -> Mapping[str, JointLoad]:

@@ -65,9 +65,14 @@ def test_without_a_stride_there_is_no_energy_and_a_remark(walk_dynamics):
 def test_frames_that_are_not_valid_are_left_out(walk_dynamics):
     torque = np.array(walk_dynamics.torque)
     torque[10:30] = np.nan
-    load = joint_loads(dataclasses.replace(walk_dynamics, torque=torque))["left_hip_flexion"]
+    valid = np.isfinite(torque).all(axis=1)
+    partly = dataclasses.replace(walk_dynamics, torque=torque, valid=valid)
+    load = joint_loads(partly)["left_hip_flexion"]
     assert len(load.torque) == len(torque) - 20
     assert load.share.sum() == pytest.approx(1.0)
+    said = " ".join(size(partly).remarks)
+    assert f"{len(torque) - 20} of {len(torque)} frames" in said
+    assert "are valid; a whole stride" not in " ".join(size(walk_dynamics).remarks)
 
 
 def test_a_given_ratio_decides_and_others_are_still_named(walk_dynamics):
