@@ -26,7 +26,7 @@ def walked(run: SimulatedWalk, *, rate: float = RATE) -> Gait:
     Raises:
         GaitError: The run ended before its second sample.
     """
-    if len(run.time[:: _every(run, rate)]) < 2:
+    if len(run.time[:: run.steps_per_sample(rate)]) < 2:
         raise GaitError(f"the run ends after {len(run.time)} steps ({run.ended}): there is no walk to show")
     gait = run.to_gait(rate=rate)
     assert gait.base is not None  # the simulated pelvis is free
@@ -41,7 +41,7 @@ def wanted(run: SimulatedWalk, *, rate: float = RATE) -> Gait:
         run: What was simulated.
         rate: Samples per second [Hz].
     """
-    rows = slice(None, len(run.time), _every(run, rate))
+    rows = slice(None, len(run.time), run.steps_per_sample(rate))
     time, base = run.reference.time[rows], run.reference.base[rows]
     return Gait(
         time,
@@ -62,13 +62,8 @@ def motor_torques(run: SimulatedWalk, *, rate: float = RATE) -> Torques:
     Raises:
         GaitError: A torque is larger than a leg bears: motors without limits.
     """
-    rows = slice(None, None, _every(run, rate))
+    rows = slice(None, None, run.steps_per_sample(rate))
     return Torques(run.time[rows], run.motor[rows], source=f"motors under the controller {run.controller}")
-
-
-def _every(run: SimulatedWalk, rate: float) -> int:
-    """Steps from one sample to the next, as `SimulatedWalk.to_gait` has it."""
-    return max(round(1.0 / (rate * run.timestep)), 1)
 
 
 def _on_the_spot(run: SimulatedWalk, base: Array, time: Array) -> Array:

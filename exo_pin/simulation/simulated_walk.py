@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from exo_pin import arguments
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.control import Patient
@@ -102,12 +103,20 @@ class SimulatedWalk:
         Args:
             rate: Samples per second [Hz].
         """
-        every = max(round(1.0 / (rate * self.timestep)), 1)
+        every = self.steps_per_sample(rate)
         q, _ = pinocchio_state(self.record, self.robot)
         rows = slice(None, None, every)
         time = self.time[rows]
         still = Gait(time, np.zeros((len(time), len(JOINTS))), source=f"simulated: {self.gait.source}")
         return self.robot.to_gait(q[rows], like=still)
+
+    def steps_per_sample(self, rate: float) -> int:
+        """Steps from one sample to the next at a rate [Hz], at least 1.
+
+        Raises:
+            DescriptionError: The rate is not positive.
+        """
+        return max(round(1.0 / (arguments.number("rate", rate, above=0.0) * self.timestep)), 1)
 
     def _in_joint_order(self, values: Array) -> Array:
         out = np.zeros((len(values), len(JOINTS)))

@@ -10,7 +10,7 @@ from exo_pin.control import Patient
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import load_robot
-from exo_pin.simulation import PelvisSupport, Plant, simulate
+from exo_pin.simulation import PelvisSupport, Plant, motor_torques, simulate, walked, wanted
 
 ENERGY = 0.2
 """Largest error of the energy balance [%]: the step is 1 ms."""
@@ -162,6 +162,19 @@ def test_a_run_is_a_gait_again(free):
     assert gait.time[1] - gait.time[0] == pytest.approx(0.01)
     np.testing.assert_allclose(gait.q[0], free.q[0], atol=1e-12)
     np.testing.assert_allclose(gait.base[5], free.base[50], atol=1e-12)
+
+
+def test_on_the_belt_it_walks_on_the_spot_beside_the_walk_to_follow(free):
+    run, plan, motors = walked(free), wanted(free), motor_torques(free)
+    np.testing.assert_array_equal(run.time, plan.time)
+    np.testing.assert_array_equal(run.time, motors.time)
+    assert np.abs(run.base[:, :3, 3] - plan.base[:, :3, 3]).max() < 0.05  # the support gives way by mm
+    assert np.ptp(run.base[:, 0, 3]) < 0.1 < np.ptp(free.base[:, 0, 3])
+    strikes = [e.time for e in run.events if (e.side, e.kind) == ("left", "heel_strike")]
+    np.testing.assert_allclose(np.diff(strikes), free.gait.duration, rtol=1e-9)
+    for rate in (0.0, -1.0, float("nan")):
+        with pytest.raises(DescriptionError, match="rate"):
+            walked(free, rate=rate)
 
 
 class Answer:
