@@ -20,7 +20,7 @@ _RIGID = (
 
 
 def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
-    """The run with the motors' torques; dashed curves are the walk that was to be followed.
+    """The run with the motors' torques beside a ghost; beside a second run the walk to follow is dashed.
 
     Args:
         run: What was simulated.
@@ -44,7 +44,7 @@ def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
         run.robot,
         walk,
         options,
-        reference=plan,
+        reference=None if other is None else plan,  # else the ghost's curves are the same
         reference_title="the walk to follow",
         torques=_torques(run),
     )

@@ -51,7 +51,9 @@ def print_run(run: Run, what: str) -> None:
     show.table(f"{what}, {_conditions(run)}", ["simulated", "value"], _numbers(run))
     found, heads = run.numbers, ["N m", "peak left", "right", "rms left", "right", "limit %"]
     driven = [x for x in MOVEMENTS if any(f"{side}_{x}" in found.motor_rms for side in SIDES)]
-    show.table("Motors; time at the limit, left / right", heads, [_motor(run, movement) for movement in driven])
+    show.table(
+        "Motors; time at the limit, left / right", heads, [_motor(run, movement) for movement in driven]
+    )
 
 
 def row(run: Run) -> list[str]:

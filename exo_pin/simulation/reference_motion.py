@@ -68,7 +68,7 @@ def reference_motion(gait: Gait, dynamics: Dynamics, *, cycles: int, timestep: f
     curves[:, 4 * len(JOINTS) :] = moving.base.reshape(n, _POSE)
     rates = derivative(gait.time, curves[:, 4 * len(JOINTS) :], 1, gait.duration if gait.periodic else None)
     corners = poses(robot, moving.q, CORNERS)[..., :3, 3]
-    speed = belt_speed(gait, moving.base, corners) if gait.periodic else 0.0
+    speed = belt_speed(gait, moving.base, corners)
     time, phase, both = _sampled(gait, np.hstack([curves, rates]), cycles, timestep)
     q, dq, ddq, torque = np.split(both[:, : 4 * len(JOINTS)], 4, axis=1)
     flat = both[:, 4 * len(JOINTS) :]

@@ -177,6 +177,12 @@ def test_on_the_belt_it_walks_on_the_spot_beside_the_walk_to_follow(free):
             walked(free, rate=rate)
 
 
+def test_a_recording_from_a_treadmill_walks_on_the_belt_too(exo, recording, free):
+    run = simulate(exo, recording)
+    assert run.verdict.word == "walks", run.verdict.why
+    assert run.reference.belt_speed == pytest.approx(free.reference.belt_speed, rel=0.05)
+
+
 class Answer:
     """A controller with a fixed answer."""
 
