@@ -49,6 +49,11 @@ class JointSizing:
     spring: Spring | None = None
 
     @property
+    def use(self) -> GearedUse | None:
+        """The motor with the given ratio, else the best or nearest one; None without a motor."""
+        return self.given or (None if self.ratios is None else self.ratios.best)
+
+    @property
     def torque_use(self) -> float:
         """Peak torque as a part of the record's."""
         return self.load.peak_torque / self.effort if self.effort else math.inf

@@ -1,6 +1,7 @@
 """`exo-pin size`: its table, its JSON, and one line for what is not accepted."""
 
 import json
+from xml.etree import ElementTree
 
 import pytest
 
@@ -26,6 +27,18 @@ def test_without_a_motor_the_table_says_that_the_limit_is_a_rectangle(capsys):
     assert "every joint fits" in out
 
 
+def test_the_figure_has_a_plane_for_every_movement_and_says_predicted(tmp_path, capsys):
+    path = tmp_path / "planes.svg"
+    assert main(["size", "--device", "lokomat", "-o", str(path)]) == 0
+    drawn = ElementTree.fromstring(path.read_text(encoding="utf-8"))
+    titles = [node.text for node in drawn.iter() if node.tag.endswith("title")]
+    assert titles == [
+        "free on lokomat, ground reaction predicted",
+        "hip flexion: torque [N m]",
+        "knee flexion: torque [N m]",
+    ]
+
+
 @pytest.mark.parametrize(
     ("words", "why"),
     [
@@ -36,6 +49,7 @@ def test_without_a_motor_the_table_says_that_the_limit_is_a_rectangle(capsys):
         (["--motor", "nothing"], "maxon"),
         (["--motor", "nothing.toml"], "nothing.toml"),
         (["--bws", "1.5"], "0 to 1"),
+        (["-o", "planes.png"], ".svg"),
         (["--worst", "--bws", "0.3"], "--worst"),
     ],
 )

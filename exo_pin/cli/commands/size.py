@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.cli import device_options, options, own_torques, show
 from exo_pin.errors import DescriptionError
+from exo_pin.files import write_text
 from exo_pin.gait import SPEEDS
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ _EXAMPLES = """examples:
   exo-pin size walk.mot --forces grf.mot --device lokomat
   exo-pin size fast --motor motor.toml           which gear ratios fit, and the best one
   exo-pin size --motor maxon-ec-90-flat-48v --gear 50:1 --bws 0.3 --json
+  exo-pin size -o planes.svg                     the points of torque and speed below their limits
   exo-pin size --worst                           the worst of 4 bodies, 5 speeds, 3 supports (20 s)
 
 Each motor bears the whole torque of its joint: no person helps. Without force plates the ground reaction is
@@ -48,6 +50,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--worst", action="store_true", help="the worst over bodies, normal speeds and body-weight supports"
     )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.svg",
+        help="write a figure: the walk's points on the torque-speed planes",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
@@ -58,6 +66,8 @@ def run(args: argparse.Namespace) -> int:
 
     if args.gear is not None and args.motor is None:
         raise DescriptionError("--gear is the ratio of a motor; name one with --motor")
+    if args.output is not None and (args.worst or Path(args.output).suffix.lower() != ".svg"):
+        raise DescriptionError(f"{args.output}: a figure of one walk is written as .svg, none of --worst")
     ratio = None if args.gear is None else _ratio(args.gear)
     motor = None if args.motor is None else find_motor(args.motor)
     return _run_worst(args, motor, ratio) if args.worst else _run_walk(args, motor, ratio)
@@ -77,6 +87,7 @@ def _ratio(text: str) -> float:
 
 def _run_walk(args: argparse.Namespace, motor: Motor | None, ratio: float | None) -> int:
     from exo_pin import sizing
+    from exo_pin.report.draw.torque_speed import torque_speed_svg
 
     if not 0.0 <= args.bws <= 1.0:
         raise DescriptionError(f"--bws is {args.bws:g}; a part of the weight, 0 to 1, is accepted")
@@ -88,11 +99,14 @@ def _run_walk(args: argparse.Namespace, motor: Motor | None, ratio: float | None
     found = sizing.size(known, stride=sizing.stride_time(robot, walk), motor=motor, ratio=ratio)
     for remark in found.remarks[len(known.remarks) :]:
         print(f"note: {show.plain(remark)}", file=sys.stderr)
+    title = f"{Path(args.gait).name} on {robot.name}"
+    if args.output:
+        write_text(args.output, torque_speed_svg(found, title))
     if args.json:
         support = {"newtons": known.support_force, "part": args.bws}
         show.as_json(found.facts() | {"body_weight_support": support, "mass_kg": known.mass})
     else:
-        _print(found, f"{Path(args.gait).name} on {robot.name}, ground reaction {found.reaction}")
+        _print(found, f"{title}, ground reaction {found.reaction}")
     return 0 if found.fits else 1
 
 
@@ -137,7 +151,7 @@ def _print_motor(found: Sizing) -> None:
 def _motor_row(joint: JointSizing) -> list[str]:
     assert joint.ratios is not None
     assert joint.motor is not None
-    use = joint.given or joint.ratios.best
+    use = joint.use or joint.ratios.best
     spent = joint.load.energy(efficiency=joint.motor.efficiency)
     return [joint.load.joint, *_use(use), _energy(spent), _ranges(joint.ratios), _word(joint.fits)]
 
