@@ -57,7 +57,7 @@ def answered(args: argparse.Namespace, body: Body, gait: Gait) -> AnsweredWalk:
     """
     from exo_pin.robot import load_robot
 
-    torques = torque_options.given(args)
+    torques = torque_options.given(args, body, gait)
     robot = load_robot(body, hip_order=args.hip_order)
     judged = options.judged(args, robot, gait)
     answer = device_options.answer(args, body, judged.gait, hip_order=args.hip_order)

@@ -1,4 +1,4 @@
-"""Joint torques on the command line; the sign of their knee is that of the walk's file."""
+"""Joint torques on the command line: of a file, or the walk's own by inverse dynamics."""
 
 from __future__ import annotations
 
@@ -7,38 +7,61 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import show
+from exo_pin.cli import options, own_torques, show
 
 if TYPE_CHECKING:
+    from exo_pin.anatomy import Body
     from exo_pin.gait import Gait, Torques
 
 _OPENSIM = (".mot", ".sto")
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """`--torques FILE`."""
+    """`--torques FILE`, or `own`."""
     parser.add_argument(
         "--torques",
         metavar="FILE",
-        help="joint torques of the walk, for a further tab of curves: OpenSim's inverse dynamics (.sto), "
-        "Plug-in Gait's moments (.c3d), or a .csv with time_s and columns like left_knee_flexion_torque_nm",
+        help="joint torques of the walk, for a further tab of curves: own (by inverse dynamics, as `exo-pin "
+        "torques` has it), OpenSim's inverse dynamics (.sto), Plug-in Gait's moments (.c3d), or a .csv with "
+        "time_s and columns like left_knee_flexion_torque_nm",
     )
 
 
-def given(args: argparse.Namespace) -> Torques | None:
+_OWN = "own"
+"""In place of a file: inverse dynamics of the walk itself."""
+
+
+def given(args: argparse.Namespace, body: Body, walk: Gait) -> Torques | None:
     """The torques that the arguments name; OpenSim's have the signs of `--preset` or of the walk's file.
 
-    What reading the file corrected is printed as a note.
+    What reading the file corrected is printed as a note, and what is doubtful in the walk's own torques.
+
+    Args:
+        args: The command line, with the arguments of `add`.
+        body: Who walks.
+        walk: The walk.
 
     Raises:
-        FormatError: The file cannot be read, or nothing tells the sign of its knee.
+        FormatError: The file cannot be read, nothing tells the sign of its knee, or force plates are not of
+            the walk.
+        GaitError: No torque of the walk itself can be computed.
     """
     if args.torques is None:
         return None
+    if args.torques == _OWN:
+        return _computed(args, body, walk)
     torques = _loaded(args)
     for remark in torques.remarks:
         print(f"note: {show.plain(f'{Path(args.torques).name}: {remark}')}", file=sys.stderr)
     return torques
+
+
+def _computed(args: argparse.Namespace, body: Body, walk: Gait) -> Torques:
+    """By inverse dynamics on the 12-joint exoskeleton, whatever device is asked for."""
+    from exo_pin.robot import load_robot
+
+    robot = load_robot(body)
+    return own_torques.inverse_dynamics(args, robot, options.with_events(robot, walk)[0]).to_torques()
 
 
 def _loaded(args: argparse.Namespace) -> Torques:

@@ -1,6 +1,6 @@
 """Feasibility of a walk on a device: limits, self-collision, reach, and how much of the walk is possible.
 
-Torques count where they are given (`exo_pin.gait.Torques`): computing them needs ground reaction forces.
+Torques count where they are given (`exo_pin.gait.Torques`), e.g. by `exo_pin.dynamics.torques`.
 """
 
 from exo_pin.feasible.amplitude import LARGEST_AMPLITUDE

@@ -179,3 +179,30 @@ def test_forces_of_another_clock_unit_or_sign_are_refused(capsys, subject01, tmp
     assert code == 2
     assert said in err.splitlines()[-1]
     assert "grf.mot" in err.splitlines()[-1]
+
+
+def test_the_walk_s_own_torques_decide_what_a_device_can_do(capsys):
+    words = ["feasible", "fast", "--stature", "1.9", "--mass", "110"]
+    assert main([*words]) == 0
+    capsys.readouterr()
+    assert main([*words, "--torques", "own", "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert "too much torque" in found["reason"]
+    assert "predicted" in found["torques"]
+    own = facts(capsys, *words[1:])["joints"]["left_hip_flexion"]["peak_Nm"]
+    assert f"{own:.1f} of 150 N m" in found["reason"]
+
+
+def test_the_report_shows_the_walk_s_own_torques_and_says_predicted(tmp_path):
+    page = tmp_path / "walk.html"
+    assert main(["report", "--torques", "own", "--no-player", "-o", str(page)]) == 0
+    text = page.read_text()
+    assert "Source: inverse dynamics of Schwartz 2008" in text
+    assert "ground reaction predicted" in text
+
+
+def test_own_torques_of_a_trial_are_those_of_its_plates(capsys, subject01):
+    code = main(["feasible", *map(str, subject01), "--torques", "own", "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert code in (0, 1)
+    assert "measured by 2 force plates" in found["torques"]

@@ -19,6 +19,7 @@ _EXAMPLES = """examples:
   exo-pin feasible walk.mot --device lokomat --stature 1.82 --mass 80
   exo-pin feasible very_fast --gap 10 --json
   exo-pin feasible walk.mot --torques id.sto     its torques as well, where they are known
+  exo-pin feasible walk.mot --forces grf.mot --torques own     its own torques, by inverse dynamics
 
 Ranges, speeds and accelerations of revolute and prismatic joints, self-collision and reach; torques if they
 are given. The motion of joints that the device locks, and of the pelvis where the device blocks it, is listed
@@ -54,13 +55,16 @@ def run(args: argparse.Namespace) -> int:
         raise DescriptionError("--acceleration must be positive, --gap a number")
     body = options.body_from(args)
     gait = options.gait_from(args, body)
-    known, gap = torque_options.given(args), args.gap / 1e3
+    known, gap = torque_options.given(args, body, gait), args.gap / 1e3
     found = device_options.answer(args, body, gait, acceleration=acceleration, gap=gap, torques=known)
+    source = None if known is None else known.source
     if args.json:
-        whole = {"ok": found.ok, "largest_cadence_factor": found.largest_cadence}
+        whole = {"ok": found.ok, "largest_cadence_factor": found.largest_cadence, "torques": source}
         show.as_json(found.as_recorded.facts() | whole | found.facts())
     else:
         _print(found, args.gait)
+        if source:
+            print(f"torques: {show.plain(source)}")
     return 0 if found.ok else 1
 
 

@@ -16,6 +16,7 @@ _EXAMPLES = """examples:
   exo-pin replay --device lokomat         another device, as near to the feet as it can
   exo-pin replay --robot talos            a humanoid, or --robot my.urdf: any robot with two legs
   exo-pin replay walk.mot --torques id.sto    and the torques that inverse dynamics found
+  exo-pin replay --torques own            its own torques, the ground reaction predicted or of --forces
   exo-pin replay walk.mot --html walk.html    one offline file that every browser plays
 
 The feet's paths are computed from the gait, inverse kinematics finds the exoskeleton's angles from the feet,

@@ -65,7 +65,7 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
 
 
 def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
-    """Charts and peaks of given torques; none are computed from the walk.
+    """Charts and peaks of torques, with their source.
 
     Args:
         robot: The device on a body.
@@ -95,8 +95,8 @@ def torques(robot: Robot, gait: Gait, given: Torques) -> Section:
     )
     inside = int(np.isfinite(tau).any(axis=1).sum())
     note = (
-        f"Given, not computed here: {given.source or 'source not stated'}; {inside} of {len(gait)} samples "
-        "have torques, linear between those of the file. Positive drives the joint the way its name says "
+        f"Source: {given.source or 'not stated'}; {inside} of {len(gait)} samples have torques, "
+        "linear between the source's. Positive drives the joint the way its name says "
         "(muscles' or motors' torque). Per kg of the person. Used: by an actuator that does it alone."
     )
     charts = walk_charts.by_movement(
