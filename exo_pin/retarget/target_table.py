@@ -57,7 +57,7 @@ def visuals(urdf: str) -> str:
 def _row(walk: Retargeted) -> tuple[str, ...]:
     shares = {name: round(use.used.use, 3) for name, use in walk.limit_use.items()}
     fastest, speed = max(
-        ((name, use.speed.use) for name, use in walk.limit_use.items()), key=lambda pair: pair[1]
+        ((name, round(use.speed.use, 3)) for name, use in walk.limit_use.items()), key=lambda pair: pair[1]
     )
     tightest = max(shares, key=lambda name: shares[name])
     position, rotation = 1e3 * walk.errors.largest_position, math.degrees(walk.errors.largest_rotation)
