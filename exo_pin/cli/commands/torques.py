@@ -167,17 +167,21 @@ def _known(value: float, digits: int) -> str:
 
 
 def _print_residual(found: Dynamics) -> None:
-    """What the model does not explain, beside the published thresholds."""
+    """What the model does not explain, beside the published thresholds where the ground is measured.
+
+    A predicted ground reaction leaves the horizontal rest to the support: that is no error of a recording.
+    """
     facts = found.residual.facts()
-    word = "" if found.reaction == "measured" else " (ground reaction predicted)"
-    for name, unit, key in (("force", "N", "force"), ("moment", "N m", "moment")):
-        rms, peak, most = (facts[f"{key}_{what}_{unit.replace(' ', '')}"] for what in _RESIDUAL)
+    measured = found.reaction == "measured"
+    what = "residual" if measured else "the support gives (ground reaction predicted):"
+    for name, unit in (("force", "N"), ("moment", "N m")):
+        rms, peak, most = (facts[f"{name}_{key}_{unit.replace(' ', '')}"] for key in _RESIDUAL)
         weight = f", {facts['force_rms_percent_of_weight']:.1f} % of the weight" if name == "force" else ""
-        verdict = "within" if peak <= most else "above"
-        print(
-            f"residual {name}{word}: {rms:.0f} {unit} rms{weight}; largest {peak:.0f} {unit}, {verdict} the "
-            f"published threshold of {most:.0f} {unit} (Hicks et al. 2015)"
-        )
+        line = f"{what} {name} {rms:.0f} {unit} rms{weight}; largest {peak:.0f} {unit}"
+        if measured:
+            verdict = "within" if peak <= most else "above"
+            line += f", {verdict} the published threshold of {most:.0f} {unit} (Hicks et al. 2015)"
+        print(line)
 
 
 _RESIDUAL = ("rms", "peak", "threshold")
