@@ -80,7 +80,7 @@ WITHOUT_CALLERS = {
 
 
 RESULTS = {
-    "anatomy.Leg", "compare.Comparison", "compare.JointChoices", "compare.Loss", "compare.Motion",
+    "anatomy.Leg", "compare.Comparison", "compare.JointChoices", "compare.Loss", "compare.DeviceMotion",
     "compare.Spread", "compare.Walk", "crosscheck.Check", "crosscheck.Recovery", "demand.JointDemand",
     "demand.PeakDemand", "demand.RangeDemand", "dh.DHRow", "dh.Link", "edit.Recheck", "feasible.Concession",
     "feasible.DeviceWalk", "feasible.Failure", "feasible.Feasibility", "feasible.Fit", "feasible.Nearest",

@@ -107,7 +107,7 @@ def contents() -> list[Kept]:
 
 
 def refused_entry() -> tuple[Path, str] | None:
-    """The first file of the folder that is not used, and why; None if there is none."""
+    """The first file of the folder that is not used, and why; None if all are used."""
     for file, state in _entries():
         why = place.doubt(state)
         if why:

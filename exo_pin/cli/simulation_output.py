@@ -14,7 +14,7 @@ from exo_pin.cli import show
 if TYPE_CHECKING:
     from exo_pin.simulation import Run
 
-COLUMNS = ("controller", "patient", "verdict", "rms deg", "motors N m", "motors' share", "legs carry")
+RUN_COLUMNS = ("controller", "patient", "verdict", "rms deg", "motors N m", "motors' share", "legs carry")
 """Headings of `row`."""
 
 

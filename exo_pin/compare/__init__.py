@@ -1,6 +1,6 @@
 """Loss of a walk on a device: its best motion towards the recorded feet, and the remaining errors."""
 
-from exo_pin.compare.best_motion import Motion, best, dressed, projected, robot_for
+from exo_pin.compare.best_motion import DeviceMotion, best, dressed, projected, robot_for
 from exo_pin.compare.comparison import Comparison, compare
 from exo_pin.compare.joint_choices import JointChoices, compare_joints
 from exo_pin.compare.loss import Loss, Spread
@@ -11,9 +11,9 @@ __all__ = [
     "PHASES",
     "Comparison",
     "Conditions",
+    "DeviceMotion",
     "JointChoices",
     "Loss",
-    "Motion",
     "Spread",
     "Walk",
     "best",

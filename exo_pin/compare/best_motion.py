@@ -40,7 +40,7 @@ LEAST_DECREASE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class DeviceMotion:
     """The motion of a device.
 
     Attributes:
@@ -76,7 +76,7 @@ def robot_for(device: Device, body: Body, conditions: Conditions) -> Robot:
     return load_robot(body, device=device.carried() if conditions.pelvis == "recorded" else device)
 
 
-def projected(recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CONDITIONS) -> Motion:
+def projected(recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CONDITIONS) -> DeviceMotion:
     """The plain copy: the device's joints take the required angles within their limits; others stay at zero.
 
     Args:
@@ -91,7 +91,7 @@ def projected(recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CON
 
 def best(
     recorded: Walk, robot: Robot, conditions: Conditions = DEFAULT_CONDITIONS, *, settings: ik.Dls = SOLVER
-) -> Motion:
+) -> DeviceMotion:
     """The device's best motion towards the recorded feet, within its ranges, speeds and accelerations.
 
     Args:
@@ -168,7 +168,7 @@ def _stand(recorded: Walk, robot: Robot, conditions: Conditions) -> Array:
     return stand(recorded.gait.time, recorded.base, periodic=recorded.gait.periodic)
 
 
-def _motion(recorded: Walk, robot: Robot, q: Array, base: Array, required: Array) -> Motion:
+def _motion(recorded: Walk, robot: Robot, q: Array, base: Array, required: Array) -> DeviceMotion:
     feet = poses(robot, q, FEET, base=base)
     like = Gait(
         recorded.gait.time,
@@ -179,7 +179,7 @@ def _motion(recorded: Walk, robot: Robot, q: Array, base: Array, required: Array
         source=f"{robot.name} after {recorded.gait.source or 'a gait'}",
     )
     com = center_of_mass(robot, q, base=base).position
-    return Motion(robot, q, robot.to_gait(q, like), feet, corners(robot, feet), com, required)
+    return DeviceMotion(robot, q, robot.to_gait(q, like), feet, corners(robot, feet), com, required)
 
 
 def dressed(robot: Robot) -> Robot:

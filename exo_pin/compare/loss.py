@@ -12,7 +12,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Movement
 from exo_pin.arguments import real
 from exo_pin.arrays import Array
-from exo_pin.compare.best_motion import Motion
+from exo_pin.compare.best_motion import DeviceMotion
 from exo_pin.compare.recorded_walk import Walk
 from exo_pin.demand import RangeDemand, range_demands
 from exo_pin.devices import Device
@@ -43,7 +43,7 @@ class Loss:
 
     device: Device
     walk: Walk
-    motion: Motion
+    motion: DeviceMotion
 
     @cached_property
     def sole_error(self) -> Array:

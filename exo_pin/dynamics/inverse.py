@@ -91,7 +91,7 @@ def torques(
 
 
 def _usual_masses(robot: Robot, plates: tuple[ForcePlate, ...]) -> Masses:
-    """A recorded force belongs to the bare person, a predicted one to whoever wears the device."""
+    """A recorded force belongs to the bare person, a predicted one to the wearer of the device."""
     return "wearer" if plates and robot.body is not None and robot.body.wearer else "both"
 
 

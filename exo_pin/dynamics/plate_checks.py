@@ -34,7 +34,7 @@ _IN_THE_AIR = 0.08
 """Height [m] of a sole's lowest corner above the plate from which the foot is not standing on it."""
 
 NOTICED, REFUSED = 0.05, 0.30
-"""Parts of the weight by which plates and masses differ: from here on it is said, and refused."""
+"""Parts of the weight by which plates and masses differ: the remark begins here, the refusal there."""
 
 
 @dataclass(frozen=True)

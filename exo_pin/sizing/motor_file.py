@@ -11,7 +11,7 @@ from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNa
 from exo_pin.safe import toml_file
 from exo_pin.sizing.motor import Motor
 
-FOLDER = Path(__file__).with_name("motors")
+_FOLDER = Path(__file__).with_name("motors")
 """The examples, each with its source."""
 
 _SPEEDS: Mapping[str, float] = {"no_load_speed_rad_s": 1.0, "no_load_speed_rpm": math.pi / 30}
@@ -27,7 +27,7 @@ _ENTRIES = (*_TEXTS, *_SPEEDS, *_NUMBERS)
 
 def example_motors() -> tuple[str, ...]:
     """Names of the motors that come with the package."""
-    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+    return tuple(sorted(path.stem for path in _FOLDER.glob("*.toml")))
 
 
 def find_motor(motor: str | Path | Motor) -> Motor:
@@ -46,7 +46,7 @@ def find_motor(motor: str | Path | Motor) -> Motor:
         raise UnknownNameError(
             "motor (an example, or a file that ends in .toml)", str(motor), example_motors()
         )
-    return load_motor(FOLDER / f"{name}.toml")
+    return load_motor(_FOLDER / f"{name}.toml")
 
 
 def load_motor(path: str | Path) -> Motor:

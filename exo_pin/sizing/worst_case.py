@@ -21,7 +21,7 @@ STATURES, MASSES, SUPPORTS = (1.50, 1.95), (50.0, 110.0), (0.0, 0.25, 0.5)
 """Corners of the bodies [m, kg] and parts of the weight that are carried: 4 bodies, 5 speeds, 3 supports."""
 
 
-class Case(NamedTuple):
+class SizingCase(NamedTuple):
     """One walk of the worst case: stature [m], mass [kg], speed, body-weight support as a part of 1."""
 
     stature: float
@@ -35,7 +35,7 @@ class Case(NamedTuple):
         return f"{self.stature:.2f} m, {self.mass:.0f} kg, {speed}, {100 * self.support:.0f} % support"
 
 
-CaseLoad = tuple[Case, JointLoad]
+CaseLoad = tuple[SizingCase, JointLoad]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ class WorstCase:
     velocity: float
     ratios: Ratios | None
 
-    def worst(self, quantity: str) -> tuple[float, Case]:
+    def worst(self, quantity: str) -> tuple[float, SizingCase]:
         """The largest value of a property of `JointLoad`, or of `energy`, and its case.
 
         Args:
@@ -128,7 +128,7 @@ def worst_cases(
     return tuple(_worst(record, movement, pairs, motor) for movement, pairs in found.items())
 
 
-def _of_body(device: devices.Device, body: Body) -> Iterator[tuple[Case, Mapping[str, JointLoad]]]:
+def _of_body(device: devices.Device, body: Body) -> Iterator[tuple[SizingCase, Mapping[str, JointLoad]]]:
     """The loads of one body's joints at all speeds and supports."""
     robot = load_robot(body, device=device.carried())
     for speed in SPEEDS:
@@ -136,7 +136,7 @@ def _of_body(device: devices.Device, body: Body) -> Iterator[tuple[Case, Mapping
         stride = stride_time(robot, walk)
         for support in SUPPORTS:
             known = dynamics.torques(robot, walk, body_weight_support=support)
-            yield Case(body.stature, body.mass, speed, support), joint_loads(known, stride)
+            yield SizingCase(body.stature, body.mass, speed, support), joint_loads(known, stride)
 
 
 def _worst(device: devices.Device, movement: str, loads: list[CaseLoad], motor: Motor | None) -> WorstCase:

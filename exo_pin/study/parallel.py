@@ -171,7 +171,7 @@ def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
 
 @contextlib.contextmanager
 def _one_thread() -> Iterator[None]:
-    """Linear algebra on one thread: its sums round alike whoever solves a case.
+    """Linear algebra on one thread: its sums round alike in every worker.
 
     The limit holds for a whole process. A worker that is a process of its own sets it for each case; workers
     that are threads share the one of the run, which none of them lifts before the others are done.

@@ -163,7 +163,7 @@ def _print(args: argparse.Namespace, found: _Results, what: str) -> None:
         simulation_output.print_run(found.runs[0], what)
     else:
         held = f"{what}, support {args.support}, body-weight support {args.bws:g}"
-        show.table(f"{held}; left / right leg", simulation_output.COLUMNS, found.rows)
+        show.table(f"{held}; left / right leg", simulation_output.RUN_COLUMNS, found.rows)
 
 
 def _write(args: argparse.Namespace, runs: list[Run], what: str) -> None:
