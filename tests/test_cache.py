@@ -14,8 +14,8 @@ import pytest
 from exo_pin import cache, description
 from exo_pin.anatomy import Body
 from exo_pin.cli import main
+from tests.other_user import NOBODY, reachable
 
-NOBODY = 65534
 NAME, OTHER = cache.key(["a"]), cache.key(["b"])
 FILE = f"kind-{NAME}"
 AT_ONCE = 1.0  # [s]; a pipe without a writer would be waited for for ever
@@ -143,9 +143,7 @@ print("user", os.geteuid(), os.access(sys.argv[1], os.R_OK))
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root can be another user")
 def test_another_user_reads_nothing_and_plants_nothing(home, tmp_path, capsys):
     cache.keep("kind", NAME, b"a patient's walk")
-    for folder in (home.parent, *tmp_path.parents, tmp_path):
-        if not folder.stat().st_mode & 0o001:  # pytest closes its own folders to others
-            folder.chmod(0o755)
+    reachable(home.parent)
     home.chmod(0o755)  # as if the user had opened it: the files are private all the same
     python = shutil.which("python3", path="/usr/bin")
     if python is None:
