@@ -47,8 +47,8 @@ def statures(
         DescriptionError: They are not in order, or more than 1000.
     """
     for name, value in (("low", low), ("high", high), ("step", step)):
-        number(name, value, above=0.0)
-    if not (0 < low <= high and step > 0 and (high - low) / step < _MOST_STATURES):
+        number(f"{name} of the statures", value, above=0.0)
+    if not (low <= high and (high - low) / step < _MOST_STATURES):
         raise DescriptionError(
             f"statures from {low:g} to {high:g} m in steps of {step:g} m: low <= high, a step above 0 and at "
             f"most {_MOST_STATURES} of them are accepted"
