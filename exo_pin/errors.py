@@ -28,6 +28,7 @@ __all__ = [
     "LimitError",
     "UnknownNameError",
     "hint",
+    "known_name",
     "naming_file",
     "same_name",
 ]
@@ -57,6 +58,24 @@ def same_name(name: str, known: Iterable[str]) -> str | None:
         return name
     found = [other for other in names if _spelled(other) == _spelled(name)]
     return found[0] if len(found) == 1 else None
+
+
+def known_name(kind: str, name: str, known: Iterable[str]) -> str:
+    """The known name that is meant, as `same_name` finds it.
+
+    Args:
+        kind: What is looked up, for the message.
+        name: What was given.
+        known: The names that exist.
+
+    Raises:
+        UnknownNameError: It is none of them.
+    """
+    names = tuple(known)
+    found = same_name(name, names)
+    if found is None:
+        raise UnknownNameError(kind, name, names)
+    return found
 
 
 def hint(name: str, known: Iterable[str]) -> str:

@@ -13,7 +13,7 @@ from exo_pin.control.assist_as_needed import AssistAsNeeded
 from exo_pin.control.controller import Controller, Reference
 from exo_pin.control.controller_file import load_controller
 from exo_pin.control.servo import SOFT_DAMPING, SOFT_STIFFNESS, ComputedTorque, GravityServo, Servo
-from exo_pin.errors import UnknownNameError, same_name
+from exo_pin.errors import known_name
 
 
 class Off:
@@ -51,7 +51,5 @@ def find_controller(controller: str | Controller) -> tuple[str, Controller]:
         return getattr(controller, "__name__", type(controller).__name__), controller
     if controller.partition(":")[0].endswith(".py"):
         return controller.rpartition("/")[2], load_controller(controller)
-    name = same_name(controller, CONTROLLERS)
-    if name is None:
-        raise UnknownNameError("controller", controller, CONTROLLERS)
+    name = known_name("controller", controller, CONTROLLERS)
     return name, CONTROLLERS[name]()

@@ -11,7 +11,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS, MOVEMENTS, SIDES
 from exo_pin.arrays import Array
 from exo_pin.control.patient import PATIENTS, Patient, with_activity
-from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError, same_name
+from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError, known_name
 from exo_pin.safe import toml_file
 
 _TABLES = {"activity": "activity", "stiffness_nm_rad": "stiffness", "damping_nms_rad": "damping"}
@@ -31,10 +31,7 @@ def find_patient(patient: str | Path | Patient) -> Patient:
         return patient
     if str(patient).lower().endswith(".toml"):
         return load_patient(patient)
-    name = same_name(str(patient), PATIENTS)
-    if name is None:
-        raise UnknownNameError("patient", str(patient), PATIENTS)
-    return PATIENTS[name]()
+    return PATIENTS[known_name("patient", str(patient), PATIENTS)]()
 
 
 def load_patient(path: str | Path) -> Patient:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError, same_name
+from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError, known_name
 from exo_pin.safe import toml_file
 from exo_pin.sizing.motor import Motor
 
@@ -41,11 +41,7 @@ def find_motor(motor: str | Path | Motor) -> Motor:
         return motor
     if str(motor).lower().endswith(".toml"):
         return load_motor(motor)
-    name = same_name(str(motor), example_motors())
-    if name is None:
-        raise UnknownNameError(
-            "motor (an example, or a file that ends in .toml)", str(motor), example_motors()
-        )
+    name = known_name("motor (an example, or a file that ends in .toml)", str(motor), example_motors())
     return load_motor(_FOLDER / f"{name}.toml")
 
 
