@@ -70,3 +70,10 @@ def to_host(values: NDArray[Entry]) -> NDArray[Entry]:
     """An array in the host's memory: the same one for NumPy, a copy from an accelerator."""
     remote: Any = values
     return remote.get() if is_remote(values) else values
+
+
+def json_numbers(values: Array) -> list[Any]:
+    """An array as lists for JSON, with None for what is not finite."""
+    plain = values.astype(object)
+    plain[~np.isfinite(values)] = None
+    return list(plain.tolist())

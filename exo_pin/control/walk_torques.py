@@ -10,7 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, json_numbers
 from exo_pin.control.patient import Patient, shares
 from exo_pin.dynamics import Dynamics
 from exo_pin.errors import GaitError
@@ -105,7 +105,7 @@ class WalkTorques:
     def curves(self) -> dict[str, Any]:
         """Torques of motors and person by joint for JSON; None in frames that are not valid."""
         return {
-            key: {name: _nulls(values[:, JOINTS.index(name)]) for name in self.joints}
+            key: {name: json_numbers(values[:, JOINTS.index(name)]) for name in self.joints}
             for key, values in (("motor_Nm", self.motors), ("person_Nm", self.person))
         }
 
@@ -177,10 +177,6 @@ def _joint(found: Dynamics, gait: Gait, k: int, motor: Array, person: Array) -> 
 
 def _is_of(joint: JointTorque, side: Side) -> bool:
     return joint.joint.startswith(f"{side}_")
-
-
-def _nulls(values: Array) -> list[float | None]:
-    return [x if np.isfinite(x) else None for x in values.tolist()]
 
 
 def _largest(values: Array) -> float:

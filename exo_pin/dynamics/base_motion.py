@@ -12,10 +12,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.kinematics import joint_rates, smoothed_curves
 from exo_pin.robot import Robot
-
-CUTOFF = 6.0
-"""Low-pass of a recording's motion before it is differentiated [Hz]: usual for walking, and OpenSim's choice
-for its published walk."""
+from exo_pin.signals import CUTOFF
 
 _ORDER = 6
 """Of both passes together."""

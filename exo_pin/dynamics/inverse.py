@@ -8,11 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import Masses, Reaction
 from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics import ground_reaction, weight_shift
-from exo_pin.dynamics.base_motion import CUTOFF, Motion, motion
+from exo_pin.dynamics.base_motion import Motion, motion
 from exo_pin.dynamics.carried_pelvis import carried
 from exo_pin.dynamics.floating_robot import floating_robot, mass_of
 from exo_pin.dynamics.ground_forces import GroundForces
@@ -24,6 +23,8 @@ from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.robot import Robot
+from exo_pin.robot.gait_columns import in_joint_order
+from exo_pin.signals import CUTOFF
 
 _FREE = 6
 """Degrees of freedom of the pelvis, in front of the joints'."""
@@ -129,8 +130,8 @@ def _result(
     whose = {"wearer": "the wearer alone", "device": "the device alone", "both": "wearer and device"}[masses]
     return Dynamics(
         time=walk.time,
-        torque=_in_joint_order(robot, tau[:, _FREE:]),
-        velocity=_in_joint_order(robot, moving.v[:, _FREE:]),
+        torque=in_joint_order(robot.joints, tau[:, _FREE:], missing=np.nan),
+        velocity=in_joint_order(robot.joints, moving.v[:, _FREE:], missing=np.nan),
         support_wrench=in_world_axes(moving.base, tau),
         ground=GroundForces(*forces),
         valid=ground.known,
@@ -144,12 +145,3 @@ def _result(
         source=f"inverse dynamics of {walk.source or 'a walk'}; {ground.how}; {mass:.1f} kg of {whose}",
         remarks=(*ground.remarks, RIGID_TRUNK),
     )
-
-
-def _in_joint_order(robot: Robot, values: Array) -> Array:
-    """Columns of the robot's joints `(n, J)` in the order of `JOINTS` `(n, 12)`; NaN for other joints."""
-    out = np.full((len(values), len(JOINTS)), np.nan)
-    for k, name in enumerate(JOINTS):
-        if name in robot.joints:
-            out[:, k] = values[:, robot.joints.index(name)]
-    return out

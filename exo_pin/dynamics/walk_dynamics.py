@@ -10,7 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import FEET, JOINTS
 from exo_pin.anatomy.names import Masses, Reaction
-from exo_pin.arrays import Array, Mask
+from exo_pin.arrays import Array, Mask, json_numbers
 from exo_pin.dynamics.base_motion import Motion
 from exo_pin.dynamics.ground_forces import GroundForces
 from exo_pin.dynamics.plate_checks import WeightCheck
@@ -130,14 +130,14 @@ class Dynamics:
         return {
             "time": self.time.tolist(),
             "valid": self.valid.tolist(),
-            "torque_Nm": {n: _nulls(tau) for n, tau in zip(JOINTS, self.torque.T, strict=True)},
-            "power_W": {n: _nulls(p) for n, p in zip(JOINTS, self.power.T, strict=True)},
-            "support_wrench": _nulls(self.support_wrench),
+            "torque_Nm": {n: json_numbers(tau) for n, tau in zip(JOINTS, self.torque.T, strict=True)},
+            "power_W": {n: json_numbers(p) for n, p in zip(JOINTS, self.power.T, strict=True)},
+            "support_wrench": json_numbers(self.support_wrench),
             "ground": {
                 foot: {
-                    "force_N": _nulls(self.ground.force[:, k]),
-                    "point_m": _nulls(self.ground.point[:, k]),
-                    "moment_Nm": _nulls(self.ground.moment[:, k]),
+                    "force_N": json_numbers(self.ground.force[:, k]),
+                    "point_m": json_numbers(self.ground.point[:, k]),
+                    "moment_Nm": json_numbers(self.ground.moment[:, k]),
                 }
                 for k, foot in enumerate(FEET)
             },
@@ -146,10 +146,3 @@ class Dynamics:
     def to_json(self) -> dict[str, Any]:
         """Facts and curves."""
         return self.facts() | self.curves()
-
-
-def _nulls(values: Array) -> list[Any]:
-    """An array as lists, with None for NaN."""
-    plain = values.astype(object)
-    plain[~np.isfinite(values)] = None
-    return list(plain.tolist())

@@ -1,10 +1,11 @@
-"""A gait's angles in a robot's configuration: which columns, and the order of the hip's axes."""
+"""A gait's joints and a robot's: which columns, in which order, and the order of the hip's axes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import pinocchio as pin
 
 from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES
@@ -32,6 +33,21 @@ def gait_columns(model: Any, joints: Sequence[str]) -> tuple[list[int], list[int
     mine = [k for k, name in enumerate(JOINTS) if name in joints]
     first = model.nq - len(joints)
     return mine, [first + joints.index(JOINTS[k]) for k in mine]
+
+
+def in_joint_order(joints: Sequence[str], values: Array, *, missing: float = 0.0) -> Array:
+    """Values (..., J) of a robot's joints in the order of `JOINTS` (..., 12).
+
+    Args:
+        joints: Names of the robot's joints; those that are not in `JOINTS` are left out.
+        values: One for each of them.
+        missing: Stands for joints that the robot lacks.
+    """
+    out = np.full((*values.shape[:-1], len(JOINTS)), missing)
+    for k, name in enumerate(joints):
+        if name in JOINTS:
+            out[..., JOINTS.index(name)] = values[..., k]
+    return out
 
 
 def in_hip_order(q: Array, *, source: HipOrder, target: HipOrder) -> Array:

@@ -5,17 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-import numpy as np
-
 from exo_pin import arguments
-from exo_pin.anatomy import JOINTS
-from exo_pin.arrays import Array
 from exo_pin.control import Controller, Patient, find_controller, find_patient, reset
 from exo_pin.dynamics import mass_of, torques
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
+from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.simulation.loop import Loop
 from exo_pin.simulation.model_errors import with_errors
 from exo_pin.simulation.mujoco_model import Floor, mujoco_model
@@ -82,13 +79,14 @@ def simulate(
     machine = with_errors(model, mass=plant.mass_error, length=plant.length_error)
     engine = mujoco_model(machine, floor=Floor(friction=plant.floor_friction), timestep=timestep)
     reset(drive, model, gait)
+    effort, speed = (in_joint_order(machine.joints, x) for x in (machine.effort, machine.velocity))
     every = 1 if plant.rate is None else max(round(1.0 / (plant.rate * timestep)), 1)
     loop = Loop(
         engine,
         machine,
         walk,
         drive,
-        Joints(plant, _by_joint(machine, machine.effort), _by_joint(machine, machine.velocity), seed),
+        Joints(plant, effort, speed, seed),
         person,
         held,
         body_weight_support * mass_of(model) * GRAVITY,
@@ -127,12 +125,3 @@ def _check_steps(gait: Gait, cycles: int, timestep: float) -> None:
         raise DescriptionError(
             f"{steps:.0f} steps; {MOST_STEPS} are accepted: fewer cycles or a longer timestep"
         )
-
-
-def _by_joint(robot: Robot, values: Array) -> Array:
-    """`(12,)` in the order of `JOINTS`; zero for joints that the robot lacks."""
-    out = np.zeros(len(JOINTS))
-    for name, value in zip(robot.joints, values, strict=True):
-        if name in JOINTS:
-            out[JOINTS.index(name)] = value
-    return out

@@ -13,6 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.control import Patient
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
+from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.simulation.contact_forces import FloorForces, floor_forces
 from exo_pin.simulation.pelvis_support import PelvisSupport
 from exo_pin.simulation.plant import Plant
@@ -63,12 +64,12 @@ class SimulatedWalk:
     @cached_property
     def q(self) -> Array:
         """`(N, 12)` joint angles; zero for joints that the robot lacks [rad]."""
-        return self._in_joint_order(self.record.qpos[:, 7:])
+        return in_joint_order(self.robot.joints, self.record.qpos[:, 7:])
 
     @cached_property
     def dq(self) -> Array:
         """`(N, 12)` joint velocities [rad/s]."""
-        return self._in_joint_order(self.record.qvel[:, 6:])
+        return in_joint_order(self.robot.joints, self.record.qvel[:, 6:])
 
     @property
     def motor(self) -> Array:
@@ -117,10 +118,3 @@ class SimulatedWalk:
             DescriptionError: The rate is not positive.
         """
         return max(round(1.0 / (arguments.number("rate", rate, above=0.0) * self.timestep)), 1)
-
-    def _in_joint_order(self, values: Array) -> Array:
-        out = np.zeros((len(values), len(JOINTS)))
-        for k, name in enumerate(self.robot.joints):
-            if name in JOINTS:
-                out[:, JOINTS.index(name)] = values[:, k]
-        return out

@@ -10,6 +10,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.arrays import Array, Mask
 from exo_pin.errors import GaitError
+from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.simulation.simulated_walk import SimulatedWalk
 
 VerdictWord = Literal["walks", "stumbles", "falls", "diverges"]
@@ -134,8 +135,7 @@ def counted(run: SimulatedWalk) -> slice:
 
 def driven_joints(run: SimulatedWalk) -> Mask:
     """`(12,)` which joints have a motor."""
-    efforts = dict(zip(run.robot.joints, run.robot.effort, strict=True))
-    return np.array([efforts.get(name, 0.0) > 0.0 for name in JOINTS])
+    return np.asarray(in_joint_order(run.robot.joints, run.robot.effort) > 0.0)
 
 
 def _swing_contact(run: SimulatedWalk, foot: int, rows: slice) -> list[float]:
