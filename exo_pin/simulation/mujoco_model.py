@@ -128,8 +128,3 @@ def _add_soles(spec: Any, floor: Floor) -> None:
             friction=[floor.friction, 0.005, 0.0001],
             solref=[floor.time_constant, floor.damping_ratio],
         )
-
-
-def qpos_of(model: Any, robot: Robot) -> np.ndarray[Any, np.dtype[np.int64]]:
-    """Where the robot's joints stand in MuJoCo's `qpos`, in the order of `robot.joints`."""
-    return np.array([model.joint(name).qposadr[0] for name in robot.joints])
