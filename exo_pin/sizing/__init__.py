@@ -2,9 +2,10 @@
 
 from exo_pin.sizing.gear import GearedUse, Ratios, fitting_ratios, geared, motor_torque
 from exo_pin.sizing.joint_load import JointLoad, Spring
+from exo_pin.sizing.joint_sizing import JointSizing
 from exo_pin.sizing.motor import Motor
 from exo_pin.sizing.motor_file import example_motors, find_motor, load_motor
-from exo_pin.sizing.walk_sizing import JointSizing, Sizing, joint_loads, size, stride_time
+from exo_pin.sizing.walk_sizing import Sizing, joint_loads, size, stride_time
 from exo_pin.sizing.worst_case import QUANTITIES, SizingCase, WorstCase, bodies, worst_cases
 
 __all__ = [
