@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from exo_pin.anatomy import FEET, JOINTS
-from exo_pin.anatomy.names import Masses, Reaction
+from exo_pin.anatomy.names import Masses, Reaction, Side
 from exo_pin.arrays import Array, Mask, json_numbers
 from exo_pin.dynamics.base_motion import Motion
-from exo_pin.dynamics.ground_forces import GroundForces
+from exo_pin.dynamics.ground_forces import GroundForces, foot_plates
 from exo_pin.dynamics.plate_checks import WeightCheck
 from exo_pin.dynamics.residual import Residual
 from exo_pin.gait import Torques
+from exo_pin.gait.trial import ForcePlate
 from exo_pin.robot import Robot
 
 RIGID_TRUNK = (
@@ -98,6 +99,10 @@ class Dynamics:
             GaitError: No frame is valid.
         """
         return Torques(self.time, self.torque, source=self.source, remarks=self.remarks)
+
+    def foot_forces(self) -> dict[Side, ForcePlate]:
+        """Forces of the ground on each foot over the longest run of valid frames, without gaps."""
+        return foot_plates(self.ground, self.time, self.valid)
 
     def facts(self) -> dict[str, Any]:
         """Peaks and sums as plain values for JSON, over the valid frames; units as the keys say."""

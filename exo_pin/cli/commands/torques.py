@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from exo_pin.anatomy.names import Masses
-from exo_pin.cli import device_options, options, own_torques, show
+from exo_pin.cli import device_options, options, own_torques, show, torque_files
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -58,13 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="SHARE",
         help="the motors' share of what the relaxed leg requires, 0 .. 1; the person gives the rest",
     )
-    parser.add_argument("-o", "--output", metavar="FILE", help="write the torques (.csv, .sto or .mot)")
-    parser.add_argument(
-        "--as",
-        dest="written",
-        choices=("opensim-gait2392", "opensim-rajagopal"),
-        help="of a .sto or .mot: the family of the model it is for (default: opensim-rajagopal)",
-    )
+    torque_files.add(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--curves", action="store_true", help="with --json: the curves as well")
     options.add_body(parser)
@@ -73,7 +67,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Compute, share, print, write."""
     from exo_pin.control import walk_torques
-    from exo_pin.formats import save_torques
 
     patient = _checked(args)
     body = options.body_from(args)
@@ -87,27 +80,24 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print(shared, f"{Path(args.gait).name} on {robot.name}")
     if args.output:
-        save_torques(found.to_torques(), args.output, preset=args.written)
-        if not args.json:
-            print(f"{args.output}: {int(found.valid.sum())} of {len(found.time)} samples hold torques")
+        torque_files.write(args, found, walk)
     return 0
+
+
+outputs = torque_files.outputs
+"""Files beside that of the torques."""
 
 
 def _checked(args: argparse.Namespace) -> Patient | None:
     """The patient; numbers out of range and endings that are not written are refused before the work."""
     from exo_pin.control import find_patient
-    from exo_pin.formats import TORQUE_SUFFIXES
 
     for name, value in (("--bws", args.bws), ("--assist", args.assist)):
         if value is not None and not 0.0 <= value <= 1.0:
             raise DescriptionError(f"{name} is {value:g}; a share of 0 to 1 is accepted")
     if args.curves and not args.json:
         raise DescriptionError("--curves adds to --json; give both")
-    ending = Path(args.output or "").suffix.lower()
-    if args.output and ending not in TORQUE_SUFFIXES:
-        raise DescriptionError(f"{args.output}: torques are written to {', '.join(TORQUE_SUFFIXES)}")
-    if args.written and ending not in (".sto", ".mot"):
-        raise DescriptionError("--as is for a .sto or .mot file, named with -o")
+    torque_files.check(args)
     return None if args.patient is None else find_patient(args.patient)
 
 
