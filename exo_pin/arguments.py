@@ -137,6 +137,22 @@ def word(kind: str, value: object, known: Iterable[Word]) -> Word:
     raise UnknownNameError(kind, _shown(value), words)
 
 
+def text(name: str, value: object, *, error: type[ExoPinError] = DescriptionError) -> str:
+    """A text.
+
+    Args:
+        name: Of the argument, for the message.
+        value: What was given.
+        error: Class of the error.
+
+    Raises:
+        ExoPinError: Of the class `error`: it is no text.
+    """
+    if not isinstance(value, str):
+        raise error(f"{name} is {_shown(value)}; a text is accepted")
+    return value
+
+
 def several(
     name: str, values: Iterable[Entry], *, error: type[ExoPinError] = DescriptionError
 ) -> tuple[Entry, ...]:

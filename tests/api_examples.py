@@ -10,13 +10,27 @@ from typing import Any
 import numpy as np
 
 import exo_pin
-from exo_pin import compare, description, devices, feasible, formats, ground, ik, kinematics, retarget
+from exo_pin import (
+    compare,
+    description,
+    devices,
+    dynamics,
+    feasible,
+    formats,
+    ground,
+    ik,
+    kinematics,
+    retarget,
+    simulation,
+    sizing,
+)
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, Body
 from exo_pin.formats import Markers, ReadOptions
 from exo_pin.gait import Gait, Number, StrideEstimate, Torques, normative_gait
 from exo_pin.markers.marker_sets import SETS
 
 _SAMPLES = 18
+SIZING = Path(sizing.__file__).parent
 
 
 class Examples:
@@ -149,6 +163,36 @@ class Examples:
         return path
 
     @functools.cached_property
+    def patient_file(self) -> Path:
+        path = self.folder / "patient.toml"
+        path.write_text("[activity]\nright = 0.5\n")
+        return path
+
+    @functools.cached_property
+    def motor_file(self) -> Path:
+        path = self.folder / "motor.toml"
+        path.write_text((SIZING / "motors" / f"{sizing.example_motors()[0]}.toml").read_text())
+        return path
+
+    @functools.cached_property
+    def controller_file(self) -> Path:
+        path = self.folder / "controller.py"
+        path.write_text("def answer(time, q, dq, reference):\n    return 0 * q\n")
+        return path
+
+    @functools.cached_property
+    def dynamics(self) -> dynamics.Dynamics:
+        return dynamics.torques(self.robot, self.gait)
+
+    @functools.cached_property
+    def load(self) -> sizing.JointLoad:
+        return sizing.joint_loads(self.dynamics, 1.1)["left_hip_flexion"]
+
+    @functools.cached_property
+    def run(self) -> simulation.Run:
+        return simulation.simulate(self.robot, self.gait, cycles=1, timestep=5e-3)
+
+    @functools.cached_property
     def compared(self) -> Any:
         return compare.compare(self.gait, ["planar5"])
 
@@ -163,10 +207,12 @@ _WAVES = np.stack([np.sin(9 * _TIME), np.cos(7 * _TIME)], axis=1)
 
 _BY_NAME: Mapping[str, Any] = {
     "acceleration": lambda e: 150.0,
+    "assist": lambda e: 0.5,
     "after": lambda e: 1.0,
     "base": lambda e: e.gait.base[:3],
     "before": lambda e: 1.0,
     "body": lambda e: e.body,
+    "body_weight_support": lambda e: 0.2,
     "clearance": lambda e: 1.05,
     "columns": lambda e: ("time",),
     "content": lambda e: "gait",
@@ -179,10 +225,13 @@ _BY_NAME: Mapping[str, Any] = {
     "devices": lambda e: ("planar5",),
     "dq": lambda e: np.ones((3, e.robot.model.nv)),
     "dt": lambda e: 1e-3,
+    "dynamics": lambda e: e.dynamics,
+    "efficiency": lambda e: 0.8,
     "events": lambda e: e.gait.events,
     "factor": lambda e: 1.1,
     "factors": lambda e: {"knee_flexion": 0.9},
     "first": lambda e: e.gait,
+    "found": lambda e: e.dynamics,
     "frame": lambda e: "left_foot",
     "frames": lambda e: ("left_foot", "right_foot"),
     "gait": lambda e: e.gait,
@@ -197,20 +246,28 @@ _BY_NAME: Mapping[str, Any] = {
     "leg_length": lambda e: 0.9,
     "like": lambda e: e.gait,
     "limit": lambda e: 0.2,
+    "load": lambda e: e.load,
+    "loads": lambda e: e.load,
     "mapping": lambda e: {},
+    "masses": lambda e: "both",
     "mass": lambda e: 70.0,
     "model": lambda e: None,
+    "motor": lambda e: sizing.find_motor(e.motor_file),
     "movement": lambda e: "knee_flexion",
     "name": lambda e: "some_name",
     "numbers": lambda e: _NUMBERS,
     "order": lambda e: 4,
     "passive": lambda e: "held",
+    "patient": lambda e: None,
     "path": lambda e: e.walk_file,
     "pelvis": lambda e: "recorded",
     "preset": lambda e: "exo_pin",
     "q": lambda e: e.q,
     "q0": lambda e: e.q[0],
+    "rate": lambda e: 100.0,
+    "ratio": lambda e: 50.0,
     "robot": lambda e: e.robot,
+    "run": lambda e: e.run,
     "second": lambda e: e.gait,
     "seconds": lambda e: 1.0,
     "seed": lambda e: 1,
@@ -224,6 +281,7 @@ _BY_NAME: Mapping[str, Any] = {
     "style": lambda e: "carried",
     "subject": lambda e: "the gait",
     "support": lambda e: "carried",
+    "timestep": lambda e: 1e-3,
     "tolerance": lambda e: 1e-6,
     "torques": lambda e: e.torques,
     "units": lambda e: "deg",
@@ -234,6 +292,71 @@ _BY_NAME: Mapping[str, Any] = {
 """What an argument of that name takes."""
 
 _OWN: Mapping[str, Any] = {
+    "control.Patient.activity": lambda e: np.full(len(JOINTS), 0.5),
+    "control.Patient.stiffness": lambda e: np.full(len(JOINTS), 30.0),
+    "control.Patient.damping": lambda e: np.full(len(JOINTS), 2.0),
+    "control.Patient.spasticity": lambda e: np.full(len(JOINTS), 1.0),
+    "control.Patient.spastic_threshold": lambda e: 1.0,
+    "control.Patient.delay": lambda e: 0.05,
+    "control.find_controller.controller": lambda e: "pd",
+    "control.find_patient.patient": lambda e: "healthy",
+    "control.load_controller.text": lambda e: f"{e.controller_file}:answer",
+    "control.load_patient.path": lambda e: e.patient_file,
+    "control.shares.tau": lambda e: e.dynamics.torque,
+    "control.shares.q": lambda e: e.gait.q,
+    "control.shares.dq": lambda e: e.dynamics.velocity,
+    "control.stride_work.power": lambda e: e.dynamics.power[:, 0],
+    "dynamics.generalized_forces.motion": lambda e: e.dynamics.motion,
+    "dynamics.generalized_forces.robot": lambda e: e.dynamics.robot,
+    "dynamics.generalized_forces.wrench": lambda e: e.dynamics.ground.wrench,
+    "dynamics.in_pelvis_axes.T": lambda e: e.dynamics.motion.base,
+    "dynamics.in_pelvis_axes.velocity": lambda e: np.ones((_SAMPLES, 6)),
+    "dynamics.in_pelvis_axes.acceleration": lambda e: np.ones((_SAMPLES, 6)),
+    "dynamics.in_world_axes.base": lambda e: e.dynamics.motion.base,
+    "dynamics.in_world_axes.tau": lambda e: e.dynamics.motion.v,
+    "dynamics.motion.robot": lambda e: e.dynamics.robot,
+    "simulation.Floor.friction": lambda e: 0.8,
+    "simulation.Floor.time_constant": lambda e: 0.01,
+    "simulation.Floor.damping_ratio": lambda e: 1.0,
+    "simulation.PelvisSupport.stiffness": lambda e: (1e4,) * 6,
+    "simulation.PelvisSupport.damping": lambda e: (1e3,) * 6,
+    "simulation.Plant.mass_error": lambda e: 0.1,
+    "simulation.Plant.length_error": lambda e: 0.1,
+    "simulation.Plant.floor_friction": lambda e: 0.8,
+    "simulation.Plant.joint_friction": lambda e: 1.0,
+    "simulation.Plant.joint_damping": lambda e: 1.0,
+    "simulation.Plant.encoder_step": lambda e: 1e-3,
+    "simulation.Plant.noise": lambda e: 1e-3,
+    "simulation.Plant.rate": lambda e: 500.0,
+    "simulation.Plant.delay": lambda e: 0.01,
+    "simulation.simulate.after": lambda e: lambda done, steps: None,
+    "simulation.simulate.controller": lambda e: "pd",
+    "simulation.simulate.cycles": lambda e: 1,
+    "simulation.simulate.patient": lambda e: "healthy",
+    "simulation.simulate.support": lambda e: "soft",
+    "sizing.JointLoad.angle": lambda e: e.load.angle,
+    "sizing.JointLoad.speed": lambda e: e.load.speed,
+    "sizing.JointLoad.acceleration": lambda e: e.load.acceleration,
+    "sizing.JointLoad.torque": lambda e: e.load.torque,
+    "sizing.JointLoad.share": lambda e: e.load.share,
+    "sizing.JointLoad.stride": lambda e: 1.1,
+    "sizing.JointLoad.mean.values": lambda e: e.load.angle,
+    "sizing.JointLoad.rms.values": lambda e: e.load.angle,
+    "sizing.Motor.line_use.torque": lambda e: e.load.torque,
+    "sizing.Motor.line_use.speed": lambda e: e.load.speed,
+    "sizing.Motor.no_load_speed": lambda e: 300.0,
+    "sizing.Motor.peak_torque": lambda e: 5.0,
+    "sizing.Motor.continuous_torque": lambda e: 1.0,
+    "sizing.Motor.rotor_inertia": lambda e: 1e-4,
+    "sizing.Spring.stiffness": lambda e: 100.0,
+    "sizing.Spring.rest": lambda e: 0.1,
+    "sizing.Spring.torque.angle": lambda e: e.load.angle,
+    "sizing.WorstCase.worst.quantity": lambda e: "peak_torque",
+    "sizing.find_motor.motor": lambda e: e.motor_file,
+    "sizing.joint_loads.stride": lambda e: 1.1,
+    "sizing.load_motor.path": lambda e: e.motor_file,
+    "sizing.size.stride": lambda e: 1.1,
+    "sizing.worst_cases.people": lambda e: (e.body,),
     "anatomy.Body.load.path": lambda e: e.body_file,
     "anatomy.Body.save.path": lambda e: e.folder / "saved.toml",
     "compare.Loss.in_phases.errors": lambda e: np.ones((_SAMPLES, 2)),
@@ -426,6 +549,10 @@ _INSTANCES: Mapping[str, Any] = {
     "Online": lambda e: ik.Online(e.robot, frames=("left_foot",)),
     "ReadOptions": lambda e: ReadOptions(),
     "Robot": lambda e: e.robot,
+    "JointLoad": lambda e: e.load,
+    "Motor": lambda e: sizing.find_motor(e.motor_file),
+    "Spring": lambda e: sizing.Spring(100.0, 0.1),
     "StrideEstimate": lambda e: e.stride,
+    "WorstCase": lambda e: sizing.worst_cases("exo12", people=(e.body,))[0],
     "Torques": lambda e: e.torques,
 }

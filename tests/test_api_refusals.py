@@ -169,6 +169,10 @@ def test_targets_are_checked_where_they_are_solved(
         ("count", "ik.Dls"),
         ("word", "gait.strides"),
         ("table", "edit.scaled"),
+        ("word", "sizing.WorstCase.worst"),
+        ("real", "dynamics.in_pelvis_axes"),
+        ("number", "simulation.Floor"),
+        ("real", "sizing.Motor.line_use"),
     ],
 )
 def test_the_walk_notices_a_check_that_is_missing(

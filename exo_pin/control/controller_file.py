@@ -8,6 +8,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
 
+from exo_pin import arguments
 from exo_pin.control.controller import Controller
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
 
@@ -53,6 +54,7 @@ def raised_where(error: BaseException) -> str:
 
 
 def _parts(text: str) -> tuple[Path, str]:
+    text = arguments.text("controller", text)
     path, _, name = text.rpartition(":") if not text.endswith(".py") else (text, "", "")
     return Path(path), name
 

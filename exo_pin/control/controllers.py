@@ -47,9 +47,9 @@ def find_controller(controller: str | Controller) -> tuple[str, Controller]:
         UnknownNameError: There is no such controller.
         FormatError: The file cannot be run.
     """
-    if not isinstance(controller, str):
+    if isinstance(controller, Controller):  # anything that can be called
         return getattr(controller, "__name__", type(controller).__name__), controller
-    if controller.partition(":")[0].endswith(".py"):
+    if isinstance(controller, str) and controller.partition(":")[0].endswith(".py"):
         return controller.rpartition("/")[2], load_controller(controller)
     name = known_name("controller", controller, CONTROLLERS)
     return name, CONTROLLERS[name]()

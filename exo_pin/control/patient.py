@@ -90,7 +90,7 @@ def shares(
     Args:
         tau: Torques (n, 12) that the walk requires [N m]; NaN where unknown.
         q: Joint angles (n, 12) [rad].
-        dq: Joint velocities (n, 12) [rad/s].
+        dq: Joint velocities (n, 12) [rad/s]; NaN where unknown.
         patient: The person; None gives nothing, the motors do it all.
         assist: Share of the motors, 0 to 1, instead of all that the person leaves.
 
@@ -98,8 +98,10 @@ def shares(
         Torques (n, 12) of motors and of the person; their sum is `tau` [N m].
 
     Raises:
-        DescriptionError: `assist` is not within 0 to 1.
+        DescriptionError: `assist` is not within 0 to 1, a shape differs, or a number is infinite.
     """
+    tau = arguments.real("tau", tau, ("n", len(JOINTS)), gaps=True)
+    q, dq = arguments.real("q", q, tau.shape), arguments.real("dq", dq, tau.shape, gaps=True)
     if assist is not None:
         arguments.number("assist", assist, least=0.0, most=1.0)
     tissues = np.zeros(q.shape) if patient is None else patient.tissues(q)

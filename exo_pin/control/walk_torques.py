@@ -10,6 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
+from exo_pin.arguments import real
 from exo_pin.arrays import Array, json_numbers
 from exo_pin.control.patient import Patient, shares
 from exo_pin.dynamics import Dynamics
@@ -190,7 +191,12 @@ def stride_work(gait: Gait, side: Side, power: Array) -> StrideWork:
         gait: The walk, with events.
         side: Whose strides.
         power: `(n,)` at the samples of the walk [W]; NaN where unknown.
+
+    Raises:
+        DescriptionError: `power` has another shape or is infinite.
+        UnknownNameError: There is no such side.
     """
+    power = real("power", power, (len(gait),), gaps=True)
     times = cycle_times(gait, side)
     values = np.interp(times, gait.time, power, period=gait.duration if gait.periodic else None)
     whole = np.isfinite(values).all(axis=1)

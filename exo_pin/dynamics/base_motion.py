@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exo_pin.arguments import number, real
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import nearest_pose
@@ -47,7 +48,12 @@ def motion(robot: Robot, gait: Gait, *, cutoff: float | None = CUTOFF) -> Motion
         robot: A floating robot.
         gait: The walk, with the motion of its pelvis.
         cutoff: Low-pass of a recording [Hz]; None: no filter.
+
+    Raises:
+        DescriptionError: The cutoff is not positive.
     """
+    if cutoff is not None:
+        number("cutoff", cutoff, above=0.0)
     walk, how = _smoothed(gait, cutoff)
     rates = joint_rates(robot, walk, cutoff=None)
     assert walk.base is not None
@@ -76,7 +82,13 @@ def in_pelvis_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Arra
 
     Returns:
         `(n, 6)` velocity and `(n, 6)` spatial acceleration.
+
+    Raises:
+        DescriptionError: A shape differs, or a number is not finite.
     """
+    T = real("T", T, ("n", 4, 4))
+    velocity = real("velocity", velocity, (len(T), 6))
+    acceleration = real("acceleration", acceleration, (len(T), 6))
     R = T[:, :3, :3]
 
     def own(x: Array) -> Array:

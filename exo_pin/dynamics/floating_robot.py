@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pinocchio as pin
 
 from exo_pin.anatomy.names import Masses
+from exo_pin.arguments import word
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot, load_robot, load_urdf
 
@@ -20,6 +23,7 @@ def floating_robot(robot: Robot, masses: Masses = "both") -> Robot:
         DescriptionError: The masses of a URDF from elsewhere, or of a bare device, are to be divided.
         UnknownNameError: There are no such masses.
     """
+    word("masses", masses, get_args(Masses))
     if robot.base == "floating" and robot.masses == masses:
         return robot
     if robot.body is not None and robot.device is not None:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exo_pin.anatomy.names import Masses, Reaction
+from exo_pin.arguments import number, several
 from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics import ground_reaction, weight_shift
 from exo_pin.dynamics.base_motion import Motion, motion
@@ -67,12 +68,12 @@ def torques(
     Raises:
         GaitError: Plates and walk do not belong together, the support is not 0 to 1, or their weights differ
             by 30 % or more.
-        DescriptionError: The masses cannot be divided.
+        DescriptionError: The masses cannot be divided, or the cutoff is not positive.
+        UnknownNameError: There are no such masses.
     """
-    plates = tuple(forces)
-    if not 0.0 <= body_weight_support <= 1.0:
-        raise GaitError(f"body-weight support is {body_weight_support:g}; 0 to 1 of the weight is accepted")
-    chosen = masses or _usual_masses(robot, plates)
+    plates = several("forces", forces)
+    number("body-weight support", body_weight_support, least=0.0, most=1.0, error=GaitError)
+    chosen = _usual_masses(robot, plates) if masses is None else masses
     model = floating_robot(robot, chosen)
     walk, stance, words = (gait, None, "") if plates else carried(model, gait)
     moving = motion(model, walk, cutoff=cutoff)

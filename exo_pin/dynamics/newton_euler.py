@@ -6,9 +6,14 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET
+from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.dynamics.base_motion import Motion
+from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
+
+_FREE = 6
+"""Degrees of freedom of the pelvis, in front of the joints'."""
 
 
 def generalized_forces(robot: Robot, motion: Motion, wrench: Array | None = None) -> Array:
@@ -22,7 +27,12 @@ def generalized_forces(robot: Robot, motion: Motion, wrench: Array | None = None
 
     Returns:
         `(n, nv)`: force and moment on the pelvis in its own axes, then the joint torques [N, N m].
+
+    Raises:
+        DescriptionError: `wrench` has another shape, or a number is not finite.
     """
+    if wrench is not None:
+        wrench = real("wrench", wrench, (len(motion.q), len(FEET), 6))
     model, data = robot.model, robot.model.createData()
     feet = [model.frames[robot.frame(foot)].parentJoint for foot in FEET]
     forces = pin.StdVec_Force([pin.Force.Zero() for _ in range(model.njoints)])
@@ -43,7 +53,14 @@ def in_world_axes(base: Array, tau: Array) -> Array:
 
     Args:
         base: `(n, 4, 4)` pose of the pelvis.
-        tau: `(n, nv)` generalised forces.
+        tau: `(n, nv)` generalised forces, those of the pelvis first; NaN where unknown.
+
+    Raises:
+        DescriptionError: A shape differs, or a number is infinite.
     """
+    base = real("base", base, ("n", 4, 4))
+    tau = real("tau", tau, (len(base), "nv"), gaps=True)
+    if tau.shape[1] < _FREE:
+        raise DescriptionError(f"tau has shape {tau.shape}; ({len(base)}, 6 or more) is accepted")
     R = base[:, :3, :3]
     return np.hstack([np.einsum("nij,nj->ni", R, part) for part in (tau[:, :3], tau[:, 3:6])])

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from exo_pin.anatomy import CORNERS
+from exo_pin.arguments import number
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
@@ -29,11 +30,19 @@ class Floor:
         friction: Coulomb coefficient between sole and floor.
         time_constant: Of the contact's spring and damper (MuJoCo's solref) [s].
         damping_ratio: Of the contact; 1 is critical.
+
+    Raises:
+        DescriptionError: A number is not within its range.
     """
 
     friction: float = 0.8
     time_constant: float = 0.01
     damping_ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        number("friction", self.friction, least=0.0, most=10.0)
+        number("time_constant", self.time_constant, above=0.0, most=1.0)
+        number("damping_ratio", self.damping_ratio, above=0.0, most=100.0)
 
 
 def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
@@ -45,10 +54,12 @@ def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0
         timestep: Of the simulation [s].
 
     Raises:
-        DescriptionError: MuJoCo does not accept the robot.
+        DescriptionError: MuJoCo does not accept the robot, or the timestep is not within 1 us to 0.1 s.
         UnknownNameError: A sole corner is missing.
     """
     import mujoco
+
+    number("timestep [s]", timestep, least=1e-6, most=0.1)
 
     floor = floor or Floor()
     try:

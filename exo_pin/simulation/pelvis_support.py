@@ -11,7 +11,7 @@ import numpy as np
 
 from exo_pin import arguments
 from exo_pin.devices import SLIDES, Device
-from exo_pin.errors import DescriptionError, UnknownNameError
+from exo_pin.errors import DescriptionError
 
 SupportName = Literal["soft", "stiff", "stand", "none"]
 
@@ -71,9 +71,7 @@ def find_support(support: SupportName | PelvisSupport, device: Device | None) ->
         return support
     if support == "stand":
         return _stand(device)
-    if support not in _SUPPORTS:
-        raise UnknownNameError("support", support, get_args(SupportName))
-    return _SUPPORTS[support]
+    return _SUPPORTS[arguments.word("support", support, get_args(SupportName))]
 
 
 def _stand(device: Device | None) -> PelvisSupport:

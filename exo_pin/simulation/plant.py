@@ -44,7 +44,7 @@ class Plant:
     def __post_init__(self) -> None:
         for entry in fields(self):
             value = getattr(self, entry.name)
-            if "range" not in entry.metadata or value is None:
+            if "range" not in entry.metadata or (entry.name == "rate" and value is None):
                 continue
             lower, upper = entry.metadata["range"]
             arguments.number(entry.name, value, least=lower, most=upper)

@@ -115,6 +115,7 @@ class SimulatedWalk:
         """Steps from one sample to the next at a rate [Hz], at least 1.
 
         Raises:
-            DescriptionError: The rate is not positive.
+            DescriptionError: The rate is not within 0.001 to 1e6 Hz.
         """
-        return max(round(1.0 / (arguments.number("rate", rate, above=0.0) * self.timestep)), 1)
+        rate = arguments.number("rate", rate, least=1e-3, most=1e6)
+        return max(round(1.0 / (rate * self.timestep)), 1)

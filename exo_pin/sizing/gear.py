@@ -89,7 +89,11 @@ def motor_torque(load: JointLoad, motor: Motor, ratio: float) -> Array:
         load: Of the joint.
         motor: The motor.
         ratio: Turns of the motor for one of the joint.
+
+    Raises:
+        DescriptionError: The ratio is not positive.
     """
+    number("ratio", ratio, above=0.0)
     return load.torque / ratio + ratio * motor.rotor_inertia * load.acceleration
 
 

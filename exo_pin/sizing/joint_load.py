@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exo_pin.arguments import number, real
+from exo_pin.arguments import number, real, text
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 
@@ -27,7 +27,7 @@ class JointLoad:
         stride: Stride time [s]; NaN where none is known: then there is no energy per stride.
 
     Raises:
-        DescriptionError: The shapes differ, or a number is not finite.
+        DescriptionError: The shapes differ, a number is not finite, or the stride time is not positive.
     """
 
     joint: str
@@ -39,9 +39,12 @@ class JointLoad:
     stride: float = math.nan
 
     def __post_init__(self) -> None:
+        text("joint", self.joint)
         n = len(real("torque", self.torque, ("n",)))
         for name in ("angle", "speed", "acceleration", "share"):
             real(name, getattr(self, name), (n,))
+        if not (isinstance(self.stride, float) and math.isnan(self.stride)):
+            number("stride", self.stride, above=0.0)
         if not n or not math.isclose(float(self.share.sum()), 1.0, abs_tol=1e-6):
             raise DescriptionError(f"share of {n} samples sums to {self.share.sum():g}; 1 is accepted")
 
@@ -84,12 +87,20 @@ class JointLoad:
         return taken * self.stride
 
     def mean(self, values: Array) -> float:
-        """Mean over time of values `(n,)`."""
-        return float(self.share @ values)
+        """Mean over time of values `(n,)`.
+
+        Raises:
+            DescriptionError: There are not n finite numbers.
+        """
+        return float(self.share @ real("values", values, self.share.shape))
 
     def rms(self, values: Array) -> float:
-        """Root mean square over time of values `(n,)`."""
-        return math.sqrt(self.mean(values**2))
+        """Root mean square over time of values `(n,)`.
+
+        Raises:
+            DescriptionError: There are not n finite numbers.
+        """
+        return math.sqrt(self.mean(real("values", values) ** 2))
 
     def spring(self) -> Spring | None:
         """The spring beside the motor that leaves it the smallest rms torque; None where no spring helps.
@@ -126,14 +137,25 @@ class Spring:
     Attributes:
         stiffness: [N m/rad].
         rest: Angle without torque [rad].
+
+    Raises:
+        DescriptionError: The stiffness is negative, or a number is not finite.
     """
 
     stiffness: float
     rest: float
 
+    def __post_init__(self) -> None:
+        number("stiffness", self.stiffness, least=0.0)
+        number("rest", self.rest)
+
     def torque(self, angle: Array) -> Array:
-        """Its torque on the joint, towards its rest [N m]."""
-        return -self.stiffness * (angle - self.rest)
+        """Its torque on the joint at angles of any shape [rad], towards its rest [N m].
+
+        Raises:
+            DescriptionError: An angle is not finite.
+        """
+        return -self.stiffness * (real("angle", angle) - self.rest)
 
 
 _LEAST_SPREAD = 1e-8

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exo_pin.arguments import number
+from exo_pin.arguments import number, real, text
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 
@@ -46,7 +46,8 @@ class Motor:
                 f"continuous torque {self.continuous_torque:g} N m exceeds the peak torque "
                 f"{self.peak_torque:g} N m; at most the peak torque is accepted"
             )
-        if not self.source.strip():
+        text("name", self.name)
+        if not text("source", self.source).strip():
             raise DescriptionError(
                 "source is empty; a text that says where the numbers come from is accepted"
             )
@@ -60,7 +61,12 @@ class Motor:
         Args:
             torque: At the motor's shaft, any shape [N m].
             speed: Of the motor's shaft, likewise [rad/s].
+
+        Raises:
+            DescriptionError: The shapes differ, or a number is not finite.
         """
+        torque = real("torque", torque)
+        speed = real("speed", speed, torque.shape)
         of_torque, of_speed = np.abs(torque) / self.peak_torque, np.abs(speed) / self.no_load_speed
         driving = torque * speed > 0.0
         return np.asarray(np.where(driving, of_torque + of_speed, np.maximum(of_torque, of_speed)))

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from exo_pin import devices, dynamics
 from exo_pin.anatomy import MOVEMENTS, Body
 from exo_pin.anatomy.names import Speed
+from exo_pin.arguments import word
 from exo_pin.gait import SPEEDS, normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.sizing.gear import Ratios, fitting_ratios
@@ -60,8 +61,12 @@ class WorstCase:
         """The largest value of a property of `JointLoad`, or of `energy`, and its case.
 
         Args:
-            quantity: Its name, e.g. `"peak_torque"`.
+            quantity: Its name, e.g. `"peak_torque"`; one of the values of `QUANTITIES`.
+
+        Raises:
+            UnknownNameError: There is no such quantity.
         """
+        word("quantity", quantity, QUANTITIES.values())
         values = [(_value(load, quantity), case) for case, load in self.loads]
         return max(values, key=lambda pair: pair[0])
 
