@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import exo_pin
 
 NOT_WALKED = {
-    "export", "formats", "markers", "plot", "report", "retarget", "viewer", "walking",
+    "clinic", "export", "formats", "markers", "plot", "report", "retarget", "viewer", "walking",
 }  # fmt: skip
 """Rooms that are still to be walked."""
 

@@ -25,7 +25,7 @@ FLOORS = [
     {"kinematics"},
     {"ik", "demand", "ground"},
     {"dynamics"},
-    {"compare", "markers", "retarget", "walking"},
+    {"clinic", "compare", "markers", "retarget", "walking"},
     {"feasible", "sizing", "control"},
     {"edit", "simulation"},
     {"crosscheck", "export", "study"},

@@ -13,6 +13,24 @@ Side = Literal["left", "right"]
 Movement = Literal[
     "hip_flexion", "hip_adduction", "hip_rotation", "knee_flexion", "ankle_dorsiflexion", "ankle_inversion"
 ]
+ClinicalAngle = Literal[
+    "pelvis_tilt",
+    "pelvis_obliquity",
+    "pelvis_rotation",
+    "hip_flexion",
+    "hip_adduction",
+    "hip_rotation",
+    "knee_flexion",
+    "knee_adduction",
+    "knee_rotation",
+    "ankle_dorsiflexion",
+    "ankle_inversion",
+    "foot_progression",
+]
+"""An angle of a gait laboratory's page: pelvis against the laboratory, joints, foot against the way.
+
+Positive: pelvis tilted forward, its side up, its side forward; knee in varus, internal; foot toe-in.
+"""
 HipOrder = Literal["clinical", "yaw_roll_pitch"]
 """Order of the three hip joints from the pelvis outwards: ISB and gait laboratories, or humanoids."""
 Base = Literal["fixed", "floating"]
@@ -79,6 +97,8 @@ MOVEMENTS: tuple[Movement, ...] = (
     "ankle_inversion",
 )
 """Movements of a leg; the name is the positive direction on both sides (hip_rotation: internal)."""
+
+CLINICAL_ANGLES: tuple[ClinicalAngle, ...] = get_args(ClinicalAngle)
 
 HIP_REGRESSIONS: tuple[HipRegression, ...] = get_args(HipRegression)
 

@@ -10,6 +10,7 @@ from exo_pin.anatomy.person import Person
 from exo_pin.errors import FormatError
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.gait import Gait
+from exo_pin.gait.further_angles import FurtherAngles
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
 
@@ -73,6 +74,14 @@ class TrialFile:
             FormatError: The model cannot be read.
         """
         return Person()
+
+    def further_angles(self) -> FurtherAngles | None:
+        """Angles beside the 12 joints (pelvis, foot progression ...) by a model in the file, or None."""
+        return None
+
+    def session(self) -> dict[str, str]:
+        """Who was recorded, where and when, in the file's words; what it does not state is left out."""
+        return {}
 
     def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
         """Joint torques.

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from exo_pin.anatomy import MOVEMENTS, Body
-from exo_pin.anatomy.names import EventKind, Side, Speed
-from exo_pin.arguments import MOST_SAMPLES, count, number
+from exo_pin.anatomy.names import CLINICAL_ANGLES, ClinicalAngle, EventKind, Side, Speed
+from exo_pin.arguments import MOST_SAMPLES, count, number, word
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError, UnknownNameError, same_name
 from exo_pin.gait.event import Event
@@ -108,6 +108,32 @@ def normative_sd(speed: Speed = "free", *, samples: int = 100) -> Array:
     phase = np.arange(samples) / samples
     legs = [_series(curves[movement], phase - late) for late in (0.0, 0.5) for movement in MOVEMENTS]
     return np.stack(legs, axis=1)
+
+
+def speed_of(gait: Gait) -> Speed | None:
+    """The speed whose normal walk has the joint angles of a walk, at any cadence; None: it is another."""
+    if not gait.periodic or len(gait) <= 2 * MEAN_HARMONICS:
+        return None
+    phase = np.arange(len(gait)) / len(gait)
+    for speed in SPEEDS:
+        if np.allclose(gait.q, np.hstack([_leg(speed, phase), _leg(speed, phase - 0.5)]), rtol=0, atol=1e-9):
+            return speed
+    return None
+
+
+def published_curve(speed: Speed, angle: ClinicalAngle) -> tuple[Array, Array]:
+    """Mean and standard deviation `(101,)` [rad] of an angle over a side's cycle, heel strike at both ends.
+
+    Of the children of `normative_gait`; ankle inversion as there.
+
+    Raises:
+        UnknownNameError: There is no such speed or angle.
+    """
+    speed, angle = speed_named(speed), word("angle", angle, CLINICAL_ANGLES)
+    phase = np.linspace(0.0, 1.0, 101)
+    means = {**MEAN_ANGLES[speed], "ankle_inversion": MEAN_ANKLE_INVERSION}
+    spreads = {**SD_ANGLES[speed], "ankle_inversion": SD_ANKLE_INVERSION}
+    return _series(means[angle], phase), _series(spreads[angle], phase)
 
 
 def _series(coefficients: tuple[float, ...], phase: Array) -> Array:

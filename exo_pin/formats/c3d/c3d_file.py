@@ -17,15 +17,18 @@ from exo_pin.errors import FormatError, naming_file
 from exo_pin.formats.c3d.content import C3dContent
 from exo_pin.formats.c3d.foot_contacts import foot_events
 from exo_pin.formats.c3d.joint_centres import measured_person
+from exo_pin.formats.c3d.pelvis_and_progression import further_angles
 from exo_pin.formats.c3d.plates import FoundPlates, force_plates
 from exo_pin.formats.c3d.plug_in_gait import PLUG_IN_GAIT, has_model_angles, joint_moments, model_angles
 from exo_pin.formats.c3d.reader import read_content
 from exo_pin.formats.c3d.recorded import check_recorded
+from exo_pin.formats.c3d.session import session
 from exo_pin.formats.c3d.subject_parameters import stated_person
 from exo_pin.formats.read_options import ReadOptions
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.formats.units import LENGTH_UNITS, RADIANS_PER, metres_per, radians_per
 from exo_pin.gait import Gait
+from exo_pin.gait.further_angles import FurtherAngles
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import UP_AXES, ForcePlate, Markers
 
@@ -79,6 +82,14 @@ class C3dFile(TrialFile):
     def person(self, model: Path | None = None) -> Person:
         """The person by the model's joint centres, else by the file's parameters."""
         return measured_person(self._trial).over(stated_person(self.content.parameters))
+
+    def further_angles(self) -> FurtherAngles | None:
+        """Plug-in Gait's pelvis, foot progression and the knee's other two planes."""
+        return further_angles(self.path, self._trial)
+
+    def session(self) -> dict[str, str]:
+        """Of its parameters."""
+        return session(self.content.parameters)
 
     def torques(self, preset: SignPreset | None = None, mass: float | None = None) -> Torques:
         """Plug-in Gait's joint moments; arguments and errors as in `TrialFile.torques`."""
