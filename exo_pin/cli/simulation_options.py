@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.cli import measures
 from exo_pin.errors import DescriptionError
+from exo_pin.safe import plain_numbers
 
 if TYPE_CHECKING:
-    from exo_pin.simulation import Plant
+    from exo_pin.simulation import Plant, Push
 
 ALL, NOBODY = "all", "none"
 
@@ -61,6 +62,14 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--timestep", type=measures.number, default=1e-3, metavar="S", help="[s] (default: 0.001)"
     )
+    parser.add_argument(
+        "--push",
+        action="append",
+        default=[],
+        metavar="N,N,S@S",
+        help="at the pelvis: force forward, force to the left [N], duration, start [s], e.g. 60,0,0.1@3.2; "
+        "may be given again",
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the encoders' noise (default: 0)")
     _add_machine(parser)
 
@@ -100,8 +109,25 @@ def conditions(args: argparse.Namespace) -> dict[str, Any]:
         "cycles": 10 if args.cycles is None else args.cycles,
         "timestep": args.timestep,
         "plant": plant(args),
+        "pushes": tuple(_push(text) for text in args.push),
         "seed": args.seed,
     }
+
+
+def _push(text: str) -> Push:
+    """A push as it is typed: force forward and to the left, duration @ start."""
+    from exo_pin.simulation import Push
+
+    force, _, start = text.partition("@")
+    try:
+        forward, left, duration = (plain_numbers.number(x) for x in force.split(","))
+        at = plain_numbers.number(start)
+    except ValueError:
+        raise DescriptionError(
+            f"--push is {text!r}; force forward and to the left [N], duration and start [s] are accepted: "
+            "60,0,0.1@3.2"
+        ) from None
+    return Push(forward, left, duration, at)
 
 
 def controllers(args: argparse.Namespace) -> list[str]:

@@ -15,6 +15,7 @@ from exo_pin.dynamics import ground_reaction, weight_shift
 from exo_pin.dynamics.base_motion import Motion, motion
 from exo_pin.dynamics.carried_pelvis import carried
 from exo_pin.dynamics.floating_robot import floating_robot, mass_of
+from exo_pin.dynamics.free_reaction import free_reaction
 from exo_pin.dynamics.ground_forces import GroundForces
 from exo_pin.dynamics.newton_euler import generalized_forces, in_world_axes
 from exo_pin.dynamics.plate_checks import NOTICED, WeightCheck, check_horizontal, check_weight
@@ -23,6 +24,7 @@ from exo_pin.dynamics.walk_dynamics import RIGID_TRUNK, Dynamics
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import ForcePlate
+from exo_pin.ground import Intervals
 from exo_pin.robot import Robot
 from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.signals import CUTOFF
@@ -50,6 +52,7 @@ def torques(
     body_weight_support: float = 0.0,
     masses: Masses | None = None,
     cutoff: float | None = CUTOFF,
+    free: bool = False,
 ) -> Dynamics:
     """Joint torques of a walk by inverse dynamics (recursive Newton-Euler).
 
@@ -64,6 +67,8 @@ def torques(
         masses: `"wearer"`, `"device"` or `"both"`; None: the wearer's with plates, on which the bare person
             walked, and both without.
         cutoff: Low-pass of a recording's motion [Hz]; None: no filter.
+        free: Whether nothing but the ground holds the walk: the predicted reaction is all that the motion
+            takes, at its zero-moment point (`exo_pin.dynamics.free_reaction`). Not for plates.
 
     Raises:
         GaitError: Plates and walk do not belong together, the support is not 0 to 1, or their weights differ
@@ -83,13 +88,26 @@ def torques(
         support = np.array([0.0, 0.0, body_weight_support * weight])
         ground = _measured(model, gait, plates, needed[:, :3] - support)
     else:
-        share = weight_shift.shares(walk, stance)
-        reaction = ground_reaction.predicted(
-            model, moving, needed[:, 2] - body_weight_support * weight, share
-        )
-        known = np.asarray(np.isfinite(share).all(axis=1))
-        ground = _Ground(reaction, known, "predicted", words, _cut(known), None)
+        lifted = needed - np.array([0.0, 0.0, body_weight_support * weight, 0.0, 0.0, 0.0])
+        ground = (_free if free else _supported)(model, walk, moving, lifted, stance, words)
     return _result(model, walk, moving, ground, chosen, body_weight_support)
+
+
+def _supported(
+    robot: Robot, walk: Gait, moving: Motion, needed: Array, stance: Intervals, words: str
+) -> _Ground:
+    """The prediction for a walk whose balance is the support's."""
+    share = weight_shift.shares(walk, stance)
+    reaction = ground_reaction.predicted(robot, moving, needed[:, 2], share)
+    known = np.asarray(np.isfinite(share).all(axis=1))
+    return _Ground(reaction, known, "predicted", words, _cut(known), None)
+
+
+def _free(robot: Robot, walk: Gait, moving: Motion, needed: Array, stance: Intervals, words: str) -> _Ground:
+    """The prediction for a walk that nothing but the ground holds."""
+    reaction = free_reaction(robot, walk, moving, needed, stance)
+    how = "ground reaction predicted (all that the motion takes, at its zero-moment point), not measured"
+    return _Ground(reaction, np.ones(len(walk), dtype=bool), "predicted", how, (), None)
 
 
 def _usual_masses(robot: Robot, plates: tuple[ForcePlate, ...]) -> Masses:

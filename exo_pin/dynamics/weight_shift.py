@@ -26,14 +26,12 @@ def shares(gait: Gait, stance: Intervals) -> Array:
         gait: The walk.
         stance: Side -> intervals on the ground, after the gait's first sample [s].
     """
-    time, end = gait.time - gait.time[0], gait.duration
-    spans = {side: _joined(stance[side], end if gait.periodic else 0.0) for side in SIDES}
+    time = gait.time - gait.time[0]
     open_ends = (-np.inf, np.inf) if gait.periodic else (_TOUCH, float(time[-1]) - _TOUCH)
-    left, right = (spans[side] for side in SIDES)
-    doubles = [(a, b, late) for a, b, late in _double_supports(left, right)]
+    doubles = double_supports(gait, stance)
     whole = [b - a for a, b, _ in doubles if a > open_ends[0] and b < open_ends[1]]
     typical = float(np.mean(whole)) if whole else np.nan
-    share = np.stack([_standing(time, spans[side]) for side in SIDES], axis=1).astype(float)
+    share = standing_feet(gait, stance).astype(float)
     for a, b, late in doubles:
         inside = (time >= a) & (time <= b)
         start = a if a > open_ends[0] else b - typical
@@ -42,6 +40,20 @@ def shares(gait: Gait, stance: Intervals) -> Array:
         new = s * s * (3.0 - 2.0 * s)
         share[inside, late], share[inside, 1 - late] = new, 1.0 - new
     return share
+
+
+def standing_feet(gait: Gait, stance: Intervals) -> Mask:
+    """`(n, 2)` which foot stands."""
+    return np.stack([_standing(gait.time - gait.time[0], spans) for spans in _spans(gait, stance)], axis=1)
+
+
+def double_supports(gait: Gait, stance: Intervals) -> list[tuple[float, float, int]]:
+    """From, to [s after the first sample] and the foot (0 left, 1 right) that struck last, with both down."""
+    return _double_supports(*_spans(gait, stance))
+
+
+def _spans(gait: Gait, stance: Intervals) -> list[list[Span]]:
+    return [_joined(stance[side], gait.duration if gait.periodic else 0.0) for side in SIDES]
 
 
 def _joined(spans: tuple[Span, ...], period: float) -> list[Span]:

@@ -64,6 +64,7 @@ class Loop:
         patient: The person; None gives no torque.
         support: Holds the pelvis.
         unloading: Constant upward force at mid-hip [N].
+        pushes: `(N, 2)` horizontal force at mid-hip in each step [N].
         every: Steps from one call of the controller to the next.
         delay: Steps from measurement to torque.
     """
@@ -78,6 +79,7 @@ class Loop:
         patient: Patient | None,
         support: PelvisSupport,
         unloading: float,
+        pushes: Array,
         *,
         every: int = 1,
         delay: int = 0,
@@ -86,7 +88,7 @@ class Loop:
 
         self._model, self._walk, self._controller = model, walk, controller
         self._joints, self._patient = joints, patient
-        self._support = SupportForce(support, walk, unloading)
+        self._support = SupportForce(support, walk, unloading, pushes)
         self._every, self._delay = every, delay
         self._data = mujoco.MjData(model)
         names = [name for name in robot.joints if name in JOINTS]

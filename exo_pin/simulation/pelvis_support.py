@@ -40,6 +40,11 @@ class PelvisSupport:
             if (arguments.real(f"{what} of the support", values, (_AXES,)) < 0.0).any():
                 raise DescriptionError(f"{what} of the support is {values}; numbers from 0 on are accepted")
 
+    @property
+    def free(self) -> bool:
+        """Whether it holds nothing: no spring, no damper."""
+        return not any((*self.stiffness, *self.damping))
+
 
 _STIFF_STIFFNESS, _STIFF_DAMPING = (1e5, 1e5, 1e5, 2e4, 2e4, 2e4), (6e3, 6e3, 6e3, 1e3, 1e3, 1e3)
 """Of a frame that hardly gives way: critically damped for some 90 kg (a choice)."""

@@ -26,7 +26,7 @@ class Recording:
         person: `(N, 12)` torques of the person [N m].
         friction: `(N, 12)` of the joints [N m].
         stops: `(N, 12)` of the joint stops [N m].
-        support: `(N, 6)` force and moment about mid-hip on the pelvis, world axes [N, N m].
+        support: `(N, 6)` force and moment about mid-hip on the pelvis by support and pushes, world axes.
         constraint: `(N, nv)` generalised forces of floor and joint stops.
         energy: `(N,)` kinetic and potential energy [J].
         contacts: `(N,)` number of contacts.

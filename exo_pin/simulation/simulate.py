@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from exo_pin import arguments
 from exo_pin.control import Controller, Patient, find_controller, find_patient, reset
-from exo_pin.dynamics import mass_of, torques
+from exo_pin.dynamics import CUTOFF, mass_of, torques
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.physics import GRAVITY
@@ -18,8 +18,13 @@ from exo_pin.simulation.model_errors import with_errors
 from exo_pin.simulation.mujoco_model import Floor, mujoco_model
 from exo_pin.simulation.pelvis_support import PelvisSupport, SupportName, find_support
 from exo_pin.simulation.plant import Joints, Plant
+from exo_pin.simulation.push import Push, pushed
 from exo_pin.simulation.reference_motion import reference_motion
 from exo_pin.simulation.run import Run
+
+_FREE_CUTOFF = 20.0
+"""Of the walk of a free pelvis [Hz]: a plan's accelerations at its steps are part of its balance; the usual
+low-pass of recordings would take them off."""
 
 _MOST_SUPPORT = 0.95
 """Part of the weight: with all of it nothing would press the soles to the floor."""
@@ -39,6 +44,7 @@ def simulate(
     cycles: int = 10,
     timestep: float = 0.001,
     plant: Plant | None = None,
+    pushes: Sequence[Push] = (),
     seed: int = 0,
     after: Callable[[int, int], None] = lambda step, steps: None,
 ) -> Run:
@@ -57,6 +63,7 @@ def simulate(
         cycles: How often a walk that repeats is walked; a recording is walked once.
         timestep: [s], 0.1 to 5 ms.
         plant: Limits, friction, delay and errors of the machine; `Plant()` if left out.
+        pushes: Forces at the pelvis for a short time.
         seed: Of whatever is random.
         after: Called now and then with the number of steps done and to do.
 
@@ -73,7 +80,13 @@ def simulate(
     held = find_support(support, robot.device)
     person = None if patient is None else find_patient(patient)
     name, drive = find_controller(controller)
-    required = torques(robot, gait, body_weight_support=body_weight_support)
+    required = torques(
+        robot,
+        gait,
+        body_weight_support=body_weight_support,
+        cutoff=_FREE_CUTOFF if held.free else CUTOFF,
+        free=held.free,
+    )
     walk = reference_motion(gait, required, cycles=cycles, timestep=timestep)
     model = required.robot
     machine = with_errors(model, mass=plant.mass_error, length=plant.length_error)
@@ -90,6 +103,7 @@ def simulate(
         person,
         held,
         body_weight_support * mass_of(model) * GRAVITY,
+        pushed(pushes, walk),
         every=every,
         delay=round(plant.delay / timestep),
     )
@@ -103,6 +117,7 @@ def simulate(
         controller=name,
         patient=person,
         support=held,
+        pushes=tuple(pushes),
         plant=plant,
         body_weight_support=body_weight_support,
         weight=mass_of(machine) * GRAVITY,

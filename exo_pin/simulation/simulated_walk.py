@@ -17,6 +17,7 @@ from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.simulation.contact_forces import FloorForces, floor_forces
 from exo_pin.simulation.pelvis_support import PelvisSupport
 from exo_pin.simulation.plant import Plant
+from exo_pin.simulation.push import Push, pushed
 from exo_pin.simulation.recording import Recording
 from exo_pin.simulation.reference_motion import ReferenceMotion
 from exo_pin.simulation.witness import pinocchio_state, rotations
@@ -34,6 +35,7 @@ class SimulatedWalk:
         controller: Name of the controller.
         patient: The person; None gave no torque.
         support: What held the pelvis.
+        pushes: At the pelvis.
         plant: The machine.
         body_weight_support: Constant upward force as a part of the weight.
         weight: Of the simulated robot [N].
@@ -49,6 +51,7 @@ class SimulatedWalk:
     controller: str
     patient: Patient | None
     support: PelvisSupport
+    pushes: tuple[Push, ...]
     plant: Plant
     body_weight_support: float
     weight: float
@@ -84,7 +87,8 @@ class SimulatedWalk:
     @property
     def support_wrench(self) -> Array:
         """`(N, 6)` of the support on the pelvis: force, moment about mid-hip, world axes [N, N m]."""
-        return self.record.support
+        force = pushed(self.pushes, self.reference)[: len(self.record.support)]
+        return self.record.support - np.pad(force, ((0, 0), (0, 4)))
 
     @cached_property
     def floor(self) -> FloorForces:

@@ -1,10 +1,11 @@
-"""Force of the balance support on the pelvis, in plain floats: arrays of three cost ten times more."""
+"""Force of balance support and pushes on the pelvis, in plain floats: arrays of three cost ten times more."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 
+from exo_pin.arrays import Array
 from exo_pin.robot.floating_base import base_coordinates
 from exo_pin.simulation.pelvis_support import PelvisSupport
 from exo_pin.simulation.reference_motion import ReferenceMotion
@@ -16,19 +17,23 @@ Vector = tuple[float, float, float]
 
 
 class SupportForce:
-    """Spring, damper and unloading between the pelvis and where the walk carries it.
+    """Spring, damper and unloading between the pelvis and where the walk carries it, and pushes.
 
     Args:
         support: Stiffness and damping, world axes.
         walk: The walk.
         unloading: Constant upward force at mid-hip [N].
+        pushes: `(N, 2)` horizontal force at mid-hip in each step [N].
     """
 
-    def __init__(self, support: PelvisSupport, walk: ReferenceMotion, unloading: float) -> None:
+    def __init__(
+        self, support: PelvisSupport, walk: ReferenceMotion, unloading: float, pushes: Array
+    ) -> None:
         self._stiffness, self._damping, self._unloading = support.stiffness, support.damping, unloading
         coordinates = base_coordinates(walk.base)
         self._places: list[list[float]] = coordinates[:, :3].tolist()
         self._attitudes: list[list[float]] = coordinates[:, [6, 3, 4, 5]].tolist()
+        self._pushes = {k: push for k, push in enumerate(pushes.tolist()) if any(push)}
         self._velocities: list[list[float]] = walk.base_velocity.tolist()
 
     def at(self, k: int, qpos: Sequence[float], qvel: Sequence[float]) -> tuple[list[float], list[float]]:
@@ -53,6 +58,9 @@ class SupportForce:
             for stiff, x, damp, v, u in zip(self._stiffness, off, self._damping, speed, rate, strict=True)
         ]
         world[2] += self._unloading
+        if k in self._pushes:
+            push = self._pushes[k]
+            world[0], world[1] = world[0] + push[0], world[1] + push[1]
         w, x, y, z = attitude
         moment = rotated((w, -x, -y, -z), (world[3], world[4], world[5]))
         return world, [*world[:3], *moment]

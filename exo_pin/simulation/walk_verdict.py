@@ -127,7 +127,7 @@ def verdict(run: SimulatedWalk, found: Numbers) -> Verdict:
 
 def counted(run: SimulatedWalk) -> slice:
     """The steps that count: from the second cycle on, all of a recording and of a free pelvis."""
-    if not run.gait.periodic or run.support.name == "none":
+    if not run.gait.periodic or run.support.free:
         return slice(None)
     cycle = round(run.gait.duration / run.timestep)
     return slice(cycle if len(run.time) > cycle + 1 else 0, None)
@@ -159,7 +159,7 @@ def _swing_contact(run: SimulatedWalk, foot: int, rows: slice) -> list[float]:
 
 def _fallen(run: SimulatedWalk) -> str:
     """Why the run counts as a fall; empty if it does not."""
-    if run.support.name == "none":
+    if run.support.free:
         return _down(run)
     weight = (1.0 - run.body_weight_support) * run.weight
     for k, carried in enumerate(_by_cycle(run, run.floor.force[:, :, 2].sum(axis=1))):
