@@ -36,9 +36,9 @@ def as_floats(values: ArrayLike) -> Array:
         TypeError: The values are complex, masked or no numbers.
         ValueError: The rows have different lengths.
     """
+    if type(values) is np.ndarray and values.dtype == _FLOAT:
+        return values
     array: Any = values if is_remote(values) else np.asarray(values)
-    if array.dtype == _FLOAT and type(values) is np.ndarray:
-        return array  # type: ignore[no-any-return]
     if array.dtype.kind not in _REAL or (isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values)):
         raise TypeError(f"{array.dtype} is no kind of real numbers, or some are masked")
     return np.asarray(array, dtype=float, like=array)

@@ -17,10 +17,16 @@ from exo_pin.arrays import Array
 _HIP, _KNEE, _PLANTARFLEXION = (-20.0, 100.0), (0.0, 120.0), (-20.0, 40.0)
 """Angles that the exponentials are used for [deg]; beyond them the moment stays (they would explode)."""
 
-_HIPS, _KNEES, _ANKLES = (
-    [JOINTS.index(joint(side, movement)) for side in SIDES]
-    for movement in ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
-)
+_LEGS = [
+    [
+        JOINTS.index(joint(side, movement))
+        for movement in ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
+    ]
+    for side in SIDES
+]
+"""Columns of hip, knee and ankle of each leg."""
+
+_DEGREES = 180.0 / math.pi
 
 
 def passive_moments(q: npt.ArrayLike) -> Array:
@@ -37,24 +43,23 @@ def passive_moments(q: npt.ArrayLike) -> Array:
     Raises:
         DescriptionError: The last axis is not 12, or an angle is not finite.
     """
-    q = arguments.real("q", q, (..., len(JOINTS)))
+    return moments(arguments.real("q", q, (..., len(JOINTS))))
+
+
+def moments(q: Array) -> Array:
+    """The moments of `passive_moments` for angles (..., 12) that are known to be finite."""
     out = np.zeros(q.shape)
     if q.ndim == 1:  # one sample, as in a control loop: floats are ten times faster than arrays of two
-        degrees = [math.degrees(x) for x in q.tolist()]
-        for hip, knee, ankle in zip(_HIPS, _KNEES, _ANKLES, strict=True):
-            h, k = _within(degrees[hip], _HIP), _within(degrees[knee], _KNEE)
-            a = _within(-degrees[ankle], _PLANTARFLEXION)
+        angles = q.tolist()
+        for hip, knee, ankle in _LEGS:
+            h, k = _within(_DEGREES * angles[hip], _HIP), _within(_DEGREES * angles[knee], _KNEE)
+            a = _within(-_DEGREES * angles[ankle], _PLANTARFLEXION)
             out[hip], out[knee], out[ankle] = _leg(h, k, a, math.exp)
         return out
-    hips, knees, plantar = (
-        np.clip(x, *span)
-        for x, span in (
-            (np.degrees(q[..., _HIPS]), _HIP),
-            (np.degrees(q[..., _KNEES]), _KNEE),
-            (-np.degrees(q[..., _ANKLES]), _PLANTARFLEXION),
-        )
-    )
-    out[..., _HIPS], out[..., _KNEES], out[..., _ANKLES] = _leg(hips, knees, plantar, np.exp)
+    for hip, knee, ankle in _LEGS:
+        flexed, bent = np.clip(np.degrees(q[..., hip]), *_HIP), np.clip(np.degrees(q[..., knee]), *_KNEE)
+        plantar = np.clip(-np.degrees(q[..., ankle]), *_PLANTARFLEXION)
+        out[..., hip], out[..., knee], out[..., ankle] = _leg(flexed, bent, plantar, np.exp)
     return out
 
 

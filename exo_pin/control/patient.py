@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from exo_pin import arguments
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
-from exo_pin.control.passive_moments import passive_moments
+from exo_pin.control.passive_moments import moments
 from exo_pin.frozen_fields import set_fields
 
 _STIFFEST, _MOST_DAMPING, _LONGEST_DELAY = 1000.0, 100.0, 1.0
@@ -69,14 +70,21 @@ class Patient:
             q_walk: Angles (..., 12) that the person aims at [rad].
             dq_walk: Velocities (..., 12) of that walk [rad/s].
         """
-        beyond = np.sign(dq) * np.maximum(np.abs(dq) - self.spastic_threshold, 0.0)
         held: Array = self.stiffness * (q_walk - q) + self.damping * (dq_walk - dq)
+        if not self._spastic:
+            return held
+        beyond = np.sign(dq) * np.maximum(np.abs(dq) - self.spastic_threshold, 0.0)
         own: Array = held - self.spasticity * beyond
         return own
 
+    @cached_property
+    def _spastic(self) -> bool:
+        """Whether any joint is."""
+        return bool(self.spasticity.any())
+
     def tissues(self, q: Array) -> Array:
         """Passive moments (..., 12) of muscles and tissues at joint angles (..., 12) [N m]."""
-        return passive_moments(q) if self.passive else np.zeros(q.shape)
+        return moments(q) if self.passive else np.zeros(q.shape)
 
 
 def shares(

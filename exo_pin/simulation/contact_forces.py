@@ -1,4 +1,4 @@
-"""Forces of the floor on each foot, from the contacts that the loop wrote down."""
+"""Forces of the floor on each foot, from the sensors at the sole corners."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exo_pin.anatomy import CORNERS, SIDES
+from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
-from exo_pin.simulation.recording import Recording
+from exo_pin.simulation.engine_forces import CONTACT, SOLES
 
 _LOADED = 1.0
 """Vertical force from which a centre of pressure is given [N]."""
@@ -29,16 +29,11 @@ class FloorForces:
     point: Array
 
 
-def floor_forces(record: Recording) -> FloorForces:
-    """Sum the contacts of each foot."""
-    frames = record.frame.reshape(*record.frame.shape[:2], 3, 3)
-    force = np.einsum("ncij,nci->ncj", frames, record.force)  # rows of a frame are its axes in the world
-    used = np.arange(force.shape[1]) < record.contacts[:, None]
-    force[~used] = 0.0
-    moment = np.cross(record.point, force)
-    left = record.corner < len(CORNERS) // len(SIDES)
-    masks = np.stack([left, ~left], axis=1)[..., None]  # (N, 2, 8, 1)
-    total, about = (np.sum(masks * x[:, None], axis=2) for x in (force, moment))
+def floor_forces(sensed: Array) -> FloorForces:
+    """Sum the contacts of each foot, as MuJoCo's `sensordata` (N, S) of `sensing_model` gives them."""
+    corners = sensed[:, :SOLES].reshape(len(sensed), len(SIDES), -1, CONTACT)  # CORNERS: left, then right
+    force, place = corners[..., :3], corners[..., 3:]
+    total, about = force.sum(axis=2), np.cross(place, force).sum(axis=2)
     point = np.full(total.shape, np.nan)
     loaded = total[..., 2] > _LOADED
     point[loaded, 0] = -about[loaded, 1] / total[loaded, 2]

@@ -29,7 +29,7 @@ def balance(record: Recording, timestep: float) -> float:
     turned = np.einsum("nji,nj->ni", R, record.support[:, 3:])
     applied = np.hstack([record.support[:, :3], turned, _joints(record)]) + record.constraint
     work = timestep * float((applied[:-1] * speed).sum())
-    gained = float(record.energy[-1] - record.energy[0])
+    gained = float(record.energy[-1].sum() - record.energy[0].sum())
     turnover = timestep * float(np.abs(_joints(record)[:-1] * speed[:, _FREE:]).sum())
     return 100.0 * abs(gained - work) / turnover if turnover else float("nan")
 

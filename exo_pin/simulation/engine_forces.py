@@ -1,4 +1,4 @@
-"""Forces that the engine computed in a step, written down: floor, joint stops, energy."""
+"""Forces that the engine computes in a step: sensors in its model for the floor and the joint stops."""
 
 from __future__ import annotations
 
@@ -6,53 +6,67 @@ from typing import Any
 
 import numpy as np
 
-from exo_pin.anatomy import CORNERS, JOINTS
-from exo_pin.simulation.recording import MOST_CONTACTS, Recording
+from exo_pin.anatomy import CORNERS
+from exo_pin.arrays import Array
+from exo_pin.robot import Robot
+from exo_pin.simulation.mujoco_model import FLOOR, Floor, compiled, mujoco_spec
 
-_ROWS = 3
-"""Rows of a contact among the engine's constraints: normal and two tangents (elliptic cone)."""
+CONTACT = 6
+"""Numbers that a sole corner's sensor gives: force of the floor and where, world axes."""
+
+SOLES = len(CORNERS) * CONTACT
+"""Columns of the sole corners in `sensordata`; those of the joint stops follow, in the joints' order."""
+
+_NETFORCE = 3
+"""MuJoCo's reduction of a sensor's contacts to their sum, in world axes."""
 
 
-class EngineForces:
-    """Reads the forces of each step from MuJoCo's data.
+def sensing_model(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
+    """The model of `mujoco_model` with a sensor at each sole corner and at each joint stop.
+
+    The engine fills one array, `sensordata`, in the step itself; to read its lists of contacts and
+    constraints from Python takes ten times longer.
 
     Args:
-        model: MuJoCo's model, as `mujoco_model` makes it.
-        record: Where they are written.
+        robot: With the sole corners of `CORNERS`.
+        floor: The ground.
+        timestep: Of the simulation [s].
+
+    Raises:
+        DescriptionError: MuJoCo does not accept the robot.
+        UnknownNameError: A sole corner is missing.
     """
+    import mujoco
 
-    def __init__(self, model: Any, record: Recording) -> None:
-        import mujoco
+    spec = mujoco_spec(robot, floor=floor, timestep=timestep)
+    force, place = mujoco.mjtConDataField.mjCONDATA_FORCE, mujoco.mjtConDataField.mjCONDATA_POS
+    for name in CORNERS:
+        sensor = spec.add_sensor(
+            name=f"floor at {name}",
+            type=mujoco.mjtSensor.mjSENS_CONTACT,
+            objtype=mujoco.mjtObj.mjOBJ_GEOM,
+            objname=FLOOR,
+            reftype=mujoco.mjtObj.mjOBJ_GEOM,
+            refname=name,
+        )
+        sensor.intprm[:3] = [1 << int(force) | 1 << int(place), _NETFORCE, 1]
+    for name in robot.joints:
+        spec.add_sensor(
+            name=f"stop of {name}",
+            type=mujoco.mjtSensor.mjSENS_JOINTLIMITFRC,
+            objtype=mujoco.mjtObj.mjOBJ_JOINT,
+            objname=name,
+        )
+    return compiled(spec, robot)
 
-        self._model, self._record = model, record
-        self._corner = np.zeros(model.ngeom, dtype=int)
-        for k, name in enumerate(CORNERS):
-            self._corner[model.geom(name).id] = k
-        self._stop = int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT)
-        names = [model.joint(k).name for k in range(model.njnt)]
-        self._column = [JOINTS.index(name) if name in JOINTS else 0 for name in names]
 
-    def note(self, k: int, data: Any) -> None:
-        """Write down the forces which step k computed for the state before it."""
-        record = self._record
-        record.constraint[k] = data.qfrc_constraint
-        energy = data.energy
-        record.energy[k] = energy[0] + energy[1]
-        n = min(data.ncon, MOST_CONTACTS)
-        if n:
-            contact = data.contact
-            record.contacts[k] = n
-            record.corner[k, :n] = self._corner[contact.geom2[:n]]
-            record.point[k, :n], record.frame[k, :n] = contact.pos[:n], contact.frame[:n]
-            last = data.nefc  # contacts stand behind all other constraints, in their order
-            record.force[k, :n] = data.efc_force[last - _ROWS * n : last].reshape(n, _ROWS)
-        if data.nl:
-            self._note_stops(k, data)
+def stop_torques(sensed: Array, angles: Array, robot: Robot) -> Array:
+    """Torques of the joint stops (N, J) [N m], from what the sensors gave: a stop pushes back into the range.
 
-    def _note_stops(self, k: int, data: Any) -> None:
-        """Torques of the joint stops: a stop pushes back into the range."""
-        model = self._model
-        for row in np.flatnonzero(data.efc_type[: data.nefc] == self._stop):
-            joint = int(data.efc_id[row])
-            below = data.qpos[model.jnt_qposadr[joint]] < model.jnt_range[joint].mean()
-            self._record.stops[k, self._column[joint]] += data.efc_force[row] * (1.0 if below else -1.0)
+    Args:
+        sensed: `(N, S)` MuJoCo's `sensordata`.
+        angles: `(N, J)` of the joints [rad].
+        robot: Its joints' ranges.
+    """
+    pushes = sensed[:, SOLES:]
+    return np.where(angles < (robot.lower + robot.upper) / 2, pushes, -pushes)

@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, as_floats
 from exo_pin.control import Controller, Patient, Reference, raised_where
 from exo_pin.errors import DescriptionError, ExoPinError
 from exo_pin.robot import Robot
 from exo_pin.robot.floating_base import base_coordinates
-from exo_pin.simulation.engine_forces import EngineForces
 from exo_pin.simulation.pelvis_support import PelvisSupport
 from exo_pin.simulation.plant import Joints
 from exo_pin.simulation.recording import Columns, Recording
@@ -90,13 +89,12 @@ class Loop:
         self._joints, self._patient = joints, patient
         self._support = SupportForce(support, walk, unloading, pushes)
         self._every, self._delay = every, delay
-        self._data = mujoco.MjData(model)
+        self._data, self._advance = mujoco.MjData(model), mujoco.mj_step
         names = [name for name in robot.joints if name in JOINTS]
         self._ours = _columns([JOINTS.index(name) for name in names])
         self._qpos = _columns([model.joint(name).qposadr[0] for name in names])
         self._dofs = _columns([model.joint(name).dofadr[0] for name in names])
-        self._record = Recording(len(walk.time), model.nq, model.nv, self._ours)
-        self._forces = EngineForces(model, self._record)
+        self._record = Recording(len(walk.time), model, self._ours)
         bad = (
             mujoco.mjtWarning.mjWARN_BADQPOS,
             mujoco.mjtWarning.mjWARN_BADQVEL,
@@ -104,9 +102,9 @@ class Loop:
         )
         self._warnings = [int(kind) for kind in bad]
         self._given = np.zeros(walk.torque.shape) if patient is None else patient.given(walk.torque)
-        self._missing = walk.torque - self._given
+        self._times, self._references = walk.time.tolist(), self._wanted_walk()
+        self._q, self._dq = np.zeros(len(JOINTS)), np.zeros(len(JOINTS))
         self._nerves = 0 if patient is None else round(patient.delay / float(model.opt.timestep))
-        self._wanted = np.zeros(len(JOINTS))
         self._start()
 
     def run(self, after: Callable[[int], None] = lambda step: None) -> tuple[Recording, str]:
@@ -134,17 +132,17 @@ class Loop:
 
     def _step(self, k: int) -> str:
         """One step; why the run cannot go on after it, empty if it can."""
-        import mujoco
-
         record, data = self._record, self._data
         record.qpos[k], record.qvel[k] = data.qpos, data.qvel
-        q, dq = self._measure()
-        if k % self._every == 0:
-            self._wanted = self._asked(k, self._joints.measured(q), dq)
-        record.wanted[k] = self._wanted
-        self._apply(k, q, dq, record.wanted[max(k - self._delay, 0)])
-        mujoco.mj_step(self._model, data)
-        self._forces.note(k, data)
+        self._q[self._ours] = data.qpos[self._qpos]
+        self._dq[self._ours] = data.qvel[self._dofs]
+        record.wanted[k] = record.wanted[k - 1] if k % self._every else self._asked(k)
+        self._apply(k)
+        self._advance(self._model, data)
+        record.constraint[k] = data.qfrc_constraint
+        record.sensed[k] = data.sensordata
+        record.energy[k] = data.energy
+        self._look()
         return self._bad(k)
 
     def _start(self) -> None:
@@ -154,54 +152,58 @@ class Loop:
         data.qvel[:3] = walk.base_velocity[0, :3]
         data.qvel[3:_FREE] = walk.base[0, :3, :3].T @ walk.base_velocity[0, 3:]
         data.qpos[self._qpos], data.qvel[self._dofs] = walk.q[0][self._ours], walk.dq[0][self._ours]
+        self._look()
 
-    def _measure(self) -> tuple[Array, Array]:
-        q, dq = np.zeros(len(JOINTS)), np.zeros(len(JOINTS))
-        q[self._ours], dq[self._ours] = self._data.qpos[self._qpos], self._data.qvel[self._dofs]
-        return q, dq
+    def _look(self) -> None:
+        """The state as lists: the support and the limits compute with plain floats."""
+        self._place, self._rates = self._data.qpos.tolist(), self._data.qvel.tolist()
+        speeds = self._rates[_FREE:]
+        self._fastest = max(max(speeds), -min(speeds))
 
-    def _asked(self, k: int, q: Array, dq: Array) -> Array:
-        """The controller's answer, checked."""
-        walk = self._walk
-        now = Reference(
-            float(walk.phase[k]), walk.q[k], walk.dq[k], walk.ddq[k], walk.torque[k], self._missing[k]
-        )
+    def _wanted_walk(self) -> Iterator[Reference]:
+        """The walk for the controller: a record for each call, of arrays that nothing else reads."""
+        walk, given = self._walk, self._given
+        parts = (walk.q, walk.dq, walk.ddq, walk.torque, walk.torque - given)
+        rows = [x[:: self._every].copy() for x in parts]
+        return map(Reference, walk.phase[:: self._every].tolist(), *rows)
+
+    def _asked(self, k: int) -> Array:
+        """The controller's answer, checked. It gets copies of everything, which it may change."""
+        time, now = self._times[k], next(self._references)
         try:
-            tau = self._controller(float(walk.time[k]), q, dq, now)
+            tau = self._controller(time, self._joints.measured(self._q), self._dq.copy(), now)
         except ExoPinError:
             raise
         except Exception as error:  # whatever a user's code raises
-            why = raised_where(error)
-            raise DescriptionError(f"the controller fails at {walk.time[k]:.3f} s: {why}") from error
+            raise DescriptionError(f"the controller fails at {time:.3f} s: {raised_where(error)}") from error
         try:
-            answer = np.array(tau, dtype=float)
-        except (TypeError, ValueError):
+            answer = as_floats(tau)
+        except (TypeError, ValueError, OverflowError):
             answer = np.zeros(0)
-        if answer.shape != (len(JOINTS),) or not math.isfinite(answer.sum()):
+        if answer.shape != (len(JOINTS),) or not math.isfinite(sum(answer.tolist())):
             raise DescriptionError(
-                f"the controller's answer at {walk.time[k]:.3f} s is {tau!r:.80}; "
+                f"the controller's answer at {time:.3f} s is {tau!r:.80}; "
                 f"{len(JOINTS)} finite torques [N m] are accepted"
             )
         return answer
 
-    def _apply(self, k: int, q: Array, dq: Array, wanted: Array) -> None:
+    def _apply(self, k: int) -> None:
         """Torques of motors, person and friction, and the support, as generalised forces."""
-        record, data = self._record, self._data
-        force = data.qfrc_applied
-        motor = self._joints.motor(wanted, dq)
-        record.motor[k] = motor
-        total = motor
+        record, force, dq = self._record, self._data.qfrc_applied, self._dq
+        total = self._joints.motor(record.wanted[max(k - self._delay, 0)], dq, self._fastest)
+        record.motor[k] = total
         if self._patient is not None:
-            record.person[k] = self._person(k, q, dq)
-            total = total + record.person[k]
+            person = self._person(k)
+            record.person[k] = person
+            total = total + person
         friction = self._joints.friction(dq)
         if friction is not None:
             record.friction[k] = friction
             total = total + friction
         force[self._dofs] = total[self._ours]
-        record.support[k], force[:_FREE] = self._support.at(k, data.qpos.tolist(), data.qvel.tolist())
+        record.support[k], force[:_FREE] = self._support.at(k, self._place, self._rates)
 
-    def _person(self, k: int, q: Array, dq: Array) -> Array:
+    def _person(self, k: int) -> Array:
         """Torques (12,) of the person: what nerves give is late, tissues are not."""
         assert self._patient is not None
         walk, past = self._walk, max(k - self._nerves, 0)
@@ -210,20 +212,17 @@ class Loop:
             late, rate = np.zeros(len(JOINTS)), np.zeros(len(JOINTS))
             late[self._ours], rate[self._ours] = qpos[self._qpos], qvel[self._dofs]
         else:
-            late, rate = q, dq
+            late, rate = self._q, self._dq
         own = self._patient.own(late, rate, walk.q[past], walk.dq[past])
-        torque: Array = self._given[past] + own + self._patient.tissues(q)
+        torque: Array = self._given[past] + own + self._patient.tissues(self._q)
         return torque
 
     def _bad(self, k: int) -> str:
         """Why the run cannot go on."""
-        data = self._data
-        speeds = data.qvel[_FREE:]
-        fastest = float(np.maximum.reduce(np.abs(speeds)))
-        if not math.isfinite(fastest) or not math.isfinite(data.qpos[2]):
+        if not math.isfinite(sum(self._rates) + sum(self._place)):
             return "a position or velocity is not finite"
-        if fastest > _FASTEST:
+        if self._fastest > _FASTEST:
             return f"a joint is faster than {_FASTEST:g} rad/s"
-        if k % _LOOK == 0 and data.warning.number[self._warnings].any():
+        if k % _LOOK == 0 and self._data.warning.number[self._warnings].any():
             return "MuJoCo warns of a bad state"
         return ""

@@ -19,6 +19,9 @@ ARMATURE = 0.05
 _SPHERE = 0.010
 """Radius of the spheres at the sole corners [m]; the lowest point of each is the corner."""
 
+FLOOR = "floor"
+"""Name of the ground."""
+
 _OPTIONS = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco>'
 
 
@@ -79,7 +82,7 @@ def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0
     _root(spec).add_freejoint(name="pelvis_free")
     _add_soles(spec, floor)
     spec.worldbody.add_geom(
-        name="floor",
+        name=FLOOR,
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0.0, 0.0, 1.0],
         contype=0,
@@ -101,7 +104,15 @@ def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0
 
 def mujoco_model(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
     """The compiled MuJoCo model (`mujoco.MjModel`); arguments and errors as for `mujoco_spec`."""
-    spec = mujoco_spec(robot, floor=floor, timestep=timestep)
+    return compiled(mujoco_spec(robot, floor=floor, timestep=timestep), robot)
+
+
+def compiled(spec: Any, robot: Robot) -> Any:
+    """MuJoCo's model of a specification.
+
+    Raises:
+        DescriptionError: MuJoCo does not accept the robot.
+    """
     try:
         return spec.compile()
     except ValueError as error:

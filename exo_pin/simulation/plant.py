@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, fields
 
 import numpy as np
@@ -67,18 +68,24 @@ class Joints:
     def __init__(self, plant: Plant, effort: Array, speed: Array, seed: int) -> None:
         self._plant, self._effort, self._speed = plant, effort, speed
         self._driven = effort > 0.0
+        self._slowest = float(speed[self._driven].min(initial=math.inf))
         self._random = np.random.default_rng(seed)
         self._rough = plant.joint_friction > 0.0 or plant.joint_damping > 0.0
         self._exact = plant.encoder_step == 0.0 and plant.noise == 0.0
 
-    def motor(self, wanted: Array, dq: Array) -> Array:
-        """Torques (12,) that the motors give of those wanted [N m]."""
+    def motor(self, wanted: Array, dq: Array, fastest: float) -> Array:
+        """Torques (12,) that the motors give [N m].
+
+        Args:
+            wanted: Torques (12,) of the controller [N m].
+            dq: Joint velocities (12,) [rad/s].
+            fastest: The largest of them, absolute; where no limit is below it none is looked at.
+        """
         if not self._plant.limits:
             return wanted * self._driven
         tau: Array = np.minimum(np.maximum(wanted, -self._effort), self._effort)
-        fast = np.abs(dq) > self._speed
-        if fast.any():  # beyond its speed a motor brakes but does not drive
-            tau[fast & (tau * dq > 0.0)] = 0.0
+        if fastest > self._slowest:  # beyond its speed a motor brakes but does not drive
+            tau[(np.abs(dq) > self._speed) & (tau * dq > 0.0)] = 0.0
         return tau
 
     def friction(self, dq: Array) -> Array | None:
@@ -89,9 +96,9 @@ class Joints:
         return -self._plant.joint_friction * dry - self._plant.joint_damping * dq
 
     def measured(self, q: Array) -> Array:
-        """Angles (12,) as the encoders give them [rad]."""
+        """Angles (12,) as the encoders give them [rad], a copy."""
         if self._exact:
-            return q
+            return q.copy()
         q = q + self._plant.noise * self._random.standard_normal(len(q))
         step = self._plant.encoder_step
         return np.asarray(np.round(q / step) * step) if step else q

@@ -13,9 +13,10 @@ from exo_pin.gait import Gait
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
 from exo_pin.robot.gait_columns import in_joint_order
+from exo_pin.simulation.engine_forces import sensing_model
 from exo_pin.simulation.loop import Loop
 from exo_pin.simulation.model_errors import with_errors
-from exo_pin.simulation.mujoco_model import Floor, mujoco_model
+from exo_pin.simulation.mujoco_model import Floor
 from exo_pin.simulation.pelvis_support import PelvisSupport, SupportName, find_support
 from exo_pin.simulation.plant import Joints, Plant
 from exo_pin.simulation.push import Push, pushed
@@ -90,7 +91,7 @@ def simulate(
     walk = reference_motion(gait, required, cycles=cycles, timestep=timestep)
     model = required.robot
     machine = with_errors(model, mass=plant.mass_error, length=plant.length_error)
-    engine = mujoco_model(machine, floor=Floor(friction=plant.floor_friction), timestep=timestep)
+    engine = sensing_model(machine, floor=Floor(friction=plant.floor_friction), timestep=timestep)
     reset(drive, model, gait)
     effort, speed = (in_joint_order(machine.joints, x) for x in (machine.effort, machine.velocity))
     every = 1 if plant.rate is None else max(round(1.0 / (plant.rate * timestep)), 1)

@@ -93,7 +93,7 @@ class SimulatedWalk:
     @cached_property
     def floor(self) -> FloorForces:
         """Forces of the floor on each foot, with their centres of pressure."""
-        return floor_forces(self.record)
+        return floor_forces(self.record.sensed)
 
     @cached_property
     def base(self) -> Array:

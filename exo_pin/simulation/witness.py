@@ -11,6 +11,7 @@ from exo_pin.anatomy import FEET, JOINTS
 from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 from exo_pin.simulation.contact_forces import FloorForces
+from exo_pin.simulation.engine_forces import stop_torques
 from exo_pin.simulation.mujoco_model import ARMATURE
 from exo_pin.simulation.recording import Recording
 
@@ -35,7 +36,8 @@ def witness(robot: Robot, record: Recording, floor: FloorForces, timestep: float
     tau = np.zeros(v.shape)
     columns = [JOINTS.index(name) for name in robot.joints if name in JOINTS]
     own = _FREE + np.array([k for k, name in enumerate(robot.joints) if name in JOINTS])
-    tau[:, own] = (record.motor + record.person + record.friction + record.stops)[:, columns]
+    tau[:, own] = (record.motor + record.person + record.friction)[:, columns]
+    tau[:, _FREE:] += stop_torques(record.sensed, record.qpos[:, _FREE + 1 :], robot)
     R = rotations(record)
     tau[:, :3] = np.einsum("nji,nj->ni", R, record.support[:, :3])
     tau[:, 3:_FREE] = np.einsum("nji,nj->ni", R, record.support[:, 3:])
