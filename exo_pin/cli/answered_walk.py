@@ -11,6 +11,7 @@ from exo_pin.cli import device_options, options, torque_options
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
+    from exo_pin.dynamics import Dynamics
     from exo_pin.feasible import DeviceWalk
     from exo_pin.gait import Gait, Plausibility, Torques
     from exo_pin.robot import Robot
@@ -26,6 +27,7 @@ class AnsweredWalk:
         events_note: Why there are no events; empty where there are.
         plausibility: The verdict on the walk as it was read.
         torques: Of the walk, if known.
+        dynamics: Inverse dynamics of the walk, if its own torques are asked for.
         answer: The device's answer.
     """
 
@@ -34,6 +36,7 @@ class AnsweredWalk:
     events_note: str
     plausibility: Plausibility
     torques: Torques | None
+    dynamics: Dynamics | None
     answer: DeviceWalk
 
     @property
@@ -57,8 +60,10 @@ def answered(args: argparse.Namespace, body: Body, gait: Gait) -> AnsweredWalk:
     """
     from exo_pin.robot import load_robot
 
-    torques = torque_options.given(args, body, gait)
+    own = args.torques == torque_options.OWN
+    dynamics = torque_options.computed(args, body, gait) if own else None
+    torques = dynamics.to_torques() if dynamics else torque_options.given(args, body, gait)
     robot = load_robot(body, hip_order=args.hip_order)
     judged = options.judged(args, robot, gait)
     answer = device_options.answer(args, body, judged.gait, hip_order=args.hip_order)
-    return AnsweredWalk(robot, judged.gait, judged.events_note, judged.verdict, torques, answer)
+    return AnsweredWalk(robot, judged.gait, judged.events_note, judged.verdict, torques, dynamics, answer)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from exo_pin.feasible import DeviceWalk
     from exo_pin.gait import Gait, Plausibility
     from exo_pin.robot import Robot
-    from exo_pin.viewer import Scene, SceneOptions
+    from exo_pin.viewer import Kinetics, Scene, SceneOptions
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -112,17 +112,29 @@ def exoskeleton_scene(args: argparse.Namespace, body: Body, walk: AnsweredWalk) 
     if answer.conditions.pelvis == "device" and answer.device.pelvis != "free":
         chosen = dataclasses.replace(chosen, support="still")  # only the record's slides move the pelvis
     same = np.array_equal(gait.time, answer.gait.time)
+    kinetics = _kinetics(args, body, walk) if same else None
     made = viewer.exoskeleton_scene(
         found.robot,
         found.gait,
         chosen,
         reference=gait if same else answer.gait,
-        torques=walk.shown_torques,
+        torques=None if walk.dynamics is not None and kinetics is not None else walk.shown_torques,
+        kinetics=kinetics,
     )
     if not _runs_off(answer, made):
         return made
     facts = dataclasses.replace(made.facts, notes=(answer.belt_warning, *made.facts.notes))
     return dataclasses.replace(made, facts=facts)
+
+
+def _kinetics(args: argparse.Namespace, body: Body, walk: AnsweredWalk) -> Kinetics | None:
+    """Forces and torques of the walk: those that are asked for, else those on its force plates."""
+    from exo_pin.viewer import Kinetics
+
+    found = walk.dynamics
+    if found is None and args.torques is None:
+        found = torque_options.on_plates(args, body, walk.gait)
+    return None if found is None else Kinetics.of_dynamics(found)
 
 
 def _runs_off(answer: DeviceWalk, made: Scene) -> bool:

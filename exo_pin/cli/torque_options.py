@@ -7,10 +7,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import options, own_torques, show
+from exo_pin.cli import options, own_torques, plate_options, show
+from exo_pin.errors import GaitError
 
 if TYPE_CHECKING:
     from exo_pin.anatomy import Body
+    from exo_pin.dynamics import Dynamics
     from exo_pin.gait import Gait, Torques
 
 _OPENSIM = (".mot", ".sto")
@@ -27,7 +29,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     )
 
 
-_OWN = "own"
+OWN = "own"
 """In place of a file: inverse dynamics of the walk itself."""
 
 
@@ -48,20 +50,47 @@ def given(args: argparse.Namespace, body: Body, walk: Gait) -> Torques | None:
     """
     if args.torques is None:
         return None
-    if args.torques == _OWN:
-        return _computed(args, body, walk)
+    if args.torques == OWN:
+        return computed(args, body, walk).to_torques()
     torques = _loaded(args)
     for remark in torques.remarks:
         print(f"note: {show.plain(f'{Path(args.torques).name}: {remark}')}", file=sys.stderr)
     return torques
 
 
-def _computed(args: argparse.Namespace, body: Body, walk: Gait) -> Torques:
-    """By inverse dynamics on the 12-joint exoskeleton, whatever device is asked for."""
+def computed(args: argparse.Namespace, body: Body, walk: Gait) -> Dynamics:
+    """By inverse dynamics on the 12-joint exoskeleton, whatever device is asked for.
+
+    Args:
+        args: The command line, with the arguments of `plate_options.add`.
+        body: Who walks.
+        walk: The walk.
+
+    Raises:
+        FormatError: Force plates are not of the walk.
+        GaitError: No torque can be computed.
+    """
     from exo_pin.robot import load_robot
 
     robot = load_robot(body)
-    return own_torques.inverse_dynamics(args, robot, options.with_events(robot, walk)[0]).to_torques()
+    return own_torques.inverse_dynamics(args, robot, options.with_events(robot, walk)[0])
+
+
+def on_plates(args: argparse.Namespace, body: Body, walk: Gait) -> Dynamics | None:
+    """As `computed`, of a walk with force plates; a note and None where they do not fit it.
+
+    Args:
+        args: The command line, with the arguments of `plate_options.add`.
+        body: Who walks.
+        walk: The walk.
+    """
+    if walk.periodic or not plate_options.measured(args):
+        return None
+    try:
+        return computed(args, body, walk)
+    except GaitError as error:
+        print(f"note: the ground reaction is not shown: {show.plain(str(error))}", file=sys.stderr)
+        return None
 
 
 def _loaded(args: argparse.Namespace) -> Torques:

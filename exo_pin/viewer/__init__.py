@@ -14,11 +14,13 @@ if TYPE_CHECKING:
     from exo_pin.viewer.live.server import Server, serve
     from exo_pin.viewer.page.export import bundle, html
     from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
+    from exo_pin.viewer.scenes.kinetics import Kinetics
     from exo_pin.viewer.scenes.scene import Scene
     from exo_pin.viewer.scenes.staging import SceneOptions
     from exo_pin.viewer.views import View, retargeted, scene, view
 
 __all__ = [
+    "Kinetics",
     "Scene",
     "SceneOptions",
     "Server",
@@ -34,6 +36,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Kinetics": "scenes.kinetics",
     "Scene": "scenes.scene",
     "SceneOptions": "scenes.staging",
     "Server": "live.server",

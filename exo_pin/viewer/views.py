@@ -16,6 +16,7 @@ from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
 from exo_pin.viewer.page.export import html
 from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
+from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.scene import Scene
 from exo_pin.viewer.scenes.staging import SceneOptions
 
@@ -32,6 +33,7 @@ def scene(
     compare: Gait | None = None,
     compare_title: str = "compared",
     torques: Torques | None = None,
+    kinetics: Kinetics | None = None,
     title: str = "12-DoF exoskeleton gait",
     support: SupportStyle = "carried",
     wearer: bool = True,
@@ -53,6 +55,8 @@ def scene(
         compare: A second walk, shown as a ghost, its curves dotted.
         compare_title: What the ghost is.
         torques: Joint torques on the walk's clock, for a further tab of plots.
+        kinetics: Forces, torques and powers on the walk's clock, e.g. `Kinetics.of_dynamics(torques(...))`:
+            arrows, arcs and more tabs.
         title: Heading of the page.
         support: `"carried"`: the balance support moves the pelvis so that the standing foot stays on the
             ground; `"still"`: it holds the pelvis as in the paper.
@@ -67,7 +71,8 @@ def scene(
         ExoPinError: The wearer's figure is not installed.
     """
     is_exoskeleton = set(FEET) <= set(robot.frames)
-    left_out = () if is_exoskeleton or (reference is None and torques is None) else (_LEFT_OUT,)
+    own = not (reference is None and torques is None and kinetics is None)
+    left_out = (_LEFT_OUT,) if own and not is_exoskeleton else ()
     options = SceneOptions(title, support, compare, compare_title, (*notes, *left_out), speed)
     if not is_exoskeleton:
         return robot_scene(retarget(gait, robot), options)
@@ -78,6 +83,7 @@ def scene(
         reference=reference,
         reference_title=reference_title,
         torques=torques,
+        kinetics=kinetics,
         wearer=wearer,
     )
 

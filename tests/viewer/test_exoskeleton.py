@@ -38,7 +38,8 @@ def test_the_second_walks_curves_are_dotted_beside_the_dashed_reference(gait):
     slow = normative_gait("slow")
     scene = viewer.scene(load_robot(), gait, compare=slow, reference=gait, reference_title="measured")
     assert (scene.facts.reference, scene.facts.compared) == ("measured", "compared")
-    angles, speeds = scene.facts.plots
+    angles, speeds, pelvis = scene.facts.plots
+    assert (pelvis.reference, pelvis.compared) == ("", "pelvis_compared")
     assert scene.arrays[angles.compared] == pytest.approx(aligned(gait, slow).q, abs=FLOAT32)
     assert scene.arrays[angles.reference] == pytest.approx(gait.q, abs=FLOAT32)
     assert scene.arrays[speeds.compared].shape == scene.arrays[speeds.values].shape

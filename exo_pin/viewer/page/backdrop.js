@@ -30,9 +30,23 @@ class Backdrop {
     for (const series of spec.series) this.curve(pen, this.source.values, series, []);
     pen.restore();
     this.times(pen);
+    this.heading(pen);
+  }
+
+  /** Title, what a positive value means, and above the axis its unit. */
+  heading(pen) {
+    const { x, spec, colors, unit } = this;
+    const { title, sign } = spec;
+    const room = x.to - x.from - spec.series.length * readOutWidth(spec.unit) * unit;
+    const direction = title.endsWith(sign) ? " +" : `   ${sign} +`;
     pen.fillStyle = colors.ink;
     pen.textAlign = "left";
-    pen.fillText(spec.title, x.from, 13 * this.unit);
+    pen.fillText(title, x.from, 13 * unit);
+    pen.fillStyle = colors.muted;
+    const wide = pen.measureText(title).width;
+    if (sign && wide + pen.measureText(direction).width < room) pen.fillText(direction, x.from + wide, 13 * unit);
+    pen.textAlign = "right";
+    pen.fillText(spec.unit, x.from - 5, 13 * unit);
   }
 
   stance(pen) {
@@ -77,7 +91,7 @@ class Backdrop {
     pen.lineWidth = 1;
     pen.textAlign = "right";
     const room = (y.from - y.to) / (26 * unit);
-    for (const value of y.ticks(Math.max(3, Math.min(room, 5)))) {
+    for (const value of y.ticks(Math.max(3, Math.min(room, 5)), 3)) {
       const at = Math.round(y.of(value)) + 0.5;
       pen.globalAlpha = value === 0 ? 1 : 0.6;
       pen.beginPath();

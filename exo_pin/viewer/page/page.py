@@ -25,6 +25,7 @@ SCRIPTS = (
     "quality.js",
     "stage.js",
     "marks.js",
+    "forces.js",
     "scale.js",
     "window.js",
     "backdrop.js",

@@ -54,7 +54,7 @@ class Player {
     fresh.play(!this.calm);
     this.clock = fresh;
     this.describe(header);
-    this.plots.load(this.motion, header.plots);
+    this.plots.load(this.motion, header);
     if (this.stage) this.build(header, commands);
     this.drawn = null;
   }
@@ -69,9 +69,9 @@ class Player {
         className: note.startsWith("Warning:") ? "warning" : "",
       })),
     );
-    this.part("dashed-title").textContent = header.reference;
     this.part("dotted-title").textContent = header.compared;
     this.part("contact-title").textContent = header.contact;
+    this.part("keys").replaceChildren(...header.keys.map(legendEntry));
   }
 
   build(header, commands) {
@@ -79,6 +79,7 @@ class Player {
     this.stage.load(header, commands);
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
+    this.forces = new Forces(this.stage, header.forces);
     this.sliders.load(header.chains[0], header.handles.length ? HANDLES_HINT : "");
     this.reach = new Reach(this.chains[0]);
     this.handles.load(this.chains[0], header.handles);
@@ -96,6 +97,7 @@ class Player {
     if (this.stage) {
       for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
       this.marks.set(this.motion, t, at);
+      this.forces.set(this.motion, at);
       this.follow(at);
       this.sliders.show(this.motion.row(this.chains[0].spec.q, at));
       this.stage.viewer.set_dirty();
@@ -155,6 +157,7 @@ class Player {
     const { base } = this.chains[0].spec;
     this.chains[0].set([...q], this.motion.pose(base, this.motion.at(this.clock.time)));
     this.marks.hide();
+    this.forces.hide();
     this.showStatus("posed by hand; the curves are the walk's");
     this.stage.viewer.set_dirty();
   }
@@ -230,4 +233,13 @@ class Player {
     this.part("notice").textContent = text;
     this.part("notice").hidden = !text;
   }
+}
+
+/** An entry of the legend: its colour, its name, and what it means when the mouse rests on it. */
+function legendEntry({ title, color, hint }) {
+  const entry = Object.assign(document.createElement("span"), { title: hint });
+  const patch = document.createElement("i");
+  patch.style.background = color;
+  entry.append(patch, title);
+  return entry;
 }

@@ -11,6 +11,11 @@ function palette() {
   return Object.fromEntries(names.map((name) => [name, css.getPropertyValue(`--${name}`).trim()]));
 }
 
+/** Width of a number with its unit [px at unit 1]. */
+function readOutWidth(unit) {
+  return 46 + 6 * withUnit("", unit).length;
+}
+
 class Plot {
   /** source: {values, reference, compared}, names of arrays; window: the stretch of time that all plots show. */
   constructor(spec, motion, source, window, holder) {
@@ -32,7 +37,7 @@ class Plot {
     const ranges = spec.series.map((series) => columnRange(tables, series.column));
     const low = Math.min(...ranges.map((r) => r[0])) * spec.factor;
     const high = Math.max(...ranges.map((r) => r[1])) * spec.factor;
-    const near = Math.max(high - low, spec.least) * 0.3;
+    const near = Math.max(high - low, spec.least) * 0.15;
     const lows = [low, ...spec.series.map((s) => s.lower * spec.factor).filter((v) => v > low - near)];
     const highs = [high, ...spec.series.map((s) => s.upper * spec.factor).filter((v) => v < high + near)];
     const [bottom, top] = [Math.min(...lows), Math.max(...highs)];
@@ -91,7 +96,7 @@ class Plot {
 
   mark(pen, x, raw, series, k) {
     const value = raw * this.spec.factor;
-    const text = Number.isNaN(value) ? "\u2013" : fixed(value, this.spec.digits) + this.spec.unit;
+    const text = Number.isNaN(value) ? "\u2013" : withUnit(fixed(value, this.spec.digits), this.spec.unit);
     pen.fillStyle = this.colors[series.side] || this.colors.ink;
     if (!Number.isNaN(value)) {
       pen.beginPath();
@@ -100,7 +105,7 @@ class Plot {
     }
     pen.textAlign = "right";
     const last = this.spec.series.length - 1;
-    const slot = 46 + 6 * this.spec.unit.length;
+    const slot = readOutWidth(this.spec.unit);
     pen.fillText(text, this.x.to - (last - k) * slot * this.unit, 13 * this.unit);
     return `${series.side} ${text}`;
   }

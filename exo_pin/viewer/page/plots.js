@@ -21,9 +21,10 @@ class Plots {
     document.getElementById("whole").onclick = () => this.toggleWhole();
   }
 
-  load(motion, groups) {
+  load(motion, { plots: groups, reference }) {
     this.motion = motion;
     this.groups = groups;
+    this.reference = reference;
     this.window = new TimeWindow(motion.duration, this.calm);
     const titles = [...groups.map((group) => group.title), ...(this.other ? ["Pose"] : [])];
     this.tabs.replaceChildren(...titles.map((title, k) => this.tab(title, k)));
@@ -48,6 +49,7 @@ class Plots {
     this.showWindow();
     if (!group) return;
     document.getElementById("dashed").hidden = !group.reference;
+    document.getElementById("dashed-title").textContent = group.dashes || this.reference;
     document.getElementById("dotted").hidden = !group.compared;
     this.holder.replaceChildren();
     this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.window, this.holder));

@@ -13,6 +13,11 @@ function fixed(value, digits) {
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "\u2212");
 }
 
+/** A number's text with its unit; degrees stand close to it. */
+function withUnit(text, unit) {
+  return unit.startsWith("\u00b0") ? text + unit : `${text} ${unit}`;
+}
+
 /** A tick's number, without the dust of binary fractions. */
 function plain(value) {
   return String(Number(value.toFixed(6))).replace("-", "\u2212");
@@ -63,8 +68,15 @@ class Scale {
     return this.low + Math.min(Math.max(part, 0), 1) * (this.high - this.low);
   }
 
-  ticks(parts) {
-    const step = roundStep(this.high - this.low, parts);
+  /** Round values, as many as fit in about `parts` steps, and at least so many. */
+  ticks(parts, least = 0) {
+    for (let finer = parts; ; finer *= 1.5) {
+      const found = this.multiples(roundStep(this.high - this.low, finer));
+      if (found.length >= least) return found;
+    }
+  }
+
+  multiples(step) {
     const out = [];
     for (let v = Math.ceil(this.low / step - 1e-9) * step; v <= this.high + step * 1e-9; v += step) {
       out.push(Math.abs(v) < step * 1e-9 ? 0 : v);

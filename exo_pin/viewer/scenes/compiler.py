@@ -22,6 +22,7 @@ from exo_pin.viewer.scenes import joint_plots, props
 from exo_pin.viewer.scenes.actor import Actor
 from exo_pin.viewer.scenes.exoskeleton import stage_exoskeleton
 from exo_pin.viewer.scenes.humanoid import stage_robot
+from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.scene import ROOT, Facts, Group, Interval, Marks, PhaseCycles, Scene
 from exo_pin.viewer.scenes.staging import SceneOptions, Staging
 from exo_pin.viewer.scenes.world import boxes, world
@@ -38,6 +39,7 @@ def exoskeleton_scene(
     reference: Gait | None = None,
     reference_title: str = "source",
     torques: Torques | None = None,
+    kinetics: Kinetics | None = None,
     wearer: bool = True,
 ) -> Scene:
     """The exoskeleton's walk as a scene.
@@ -49,14 +51,18 @@ def exoskeleton_scene(
         reference: Curves to draw dashed beside the walk's, e.g. the source's.
         reference_title: What the dashed curves are.
         torques: Joint torques on the walk's clock, for a further tab of plots.
+        kinetics: Forces, torques and powers on the walk's clock, in its world: arrows, arcs and more tabs.
         wearer: Whether to draw the person, if the robot was made for one and the figure is installed.
 
     Raises:
         UnknownNameError: The robot lacks a joint or frame of a walker, or there is no such support.
-        GaitError: The torques belong to another time.
+        GaitError: The torques belong to another time, the forces to another clock.
     """
     options = options or SceneOptions(title="12-DoF exoskeleton gait")
-    gait, faced = _facing(gait)
+    recorded = gait
+    gait, faced = _facing(recorded)
+    if kinetics is not None:
+        kinetics = kinetics.on(gait.time).turned(_rotation(recorded, gait)[:3, :3])
     staging = stage_exoskeleton(
         robot,
         gait,
@@ -64,6 +70,7 @@ def exoskeleton_scene(
         reference=reference,
         reference_title=reference_title,
         torques=torques,
+        kinetics=kinetics,
         wearer=wearer,
     )
     return _compiled(staging, options, faced)
@@ -139,7 +146,7 @@ def _rotation(gait: Gait, faced: Gait) -> Array:
 
 def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> Scene:
     """The scene of a staging: the world around it, and the page's header."""
-    gait, walk, actors = staging.gait, staging.walk, staging.actors
+    gait, walk, actors, forces = staging.gait, staging.walk, staging.actors, staging.forces
     drawings, marks = world(gait, walk, staging.mounts)
     cycles = phase_cycles(gait)
     phase = [f"The phase is an estimate: {cycles.estimate}."] if cycles.estimate else []
@@ -162,9 +169,11 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         chains=tuple(actor.chain for actor in actors),
         handles=staging.handles,
         plots=joint_plots.groups(staging.tabs),
-        groups=_groups(actors, marks),
+        groups=(*_groups(actors, marks), *(() if forces is None else forces.groups)),
         marks=marks,
-        boxes=boxes(walk, staging.top),
+        forces=None if forces is None else forces.marks,
+        keys=(*staging.keys, *(() if forces is None else forces.keys)),
+        boxes=boxes(gait, walk, staging.top),
         follow=walk.support.overground,
         speed=options.speed,
         twins=tuple(pair for actor in actors for pair in actor.twins),
@@ -172,7 +181,8 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         lights=props.PLAIN_LIGHTS,
     )
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
-    return Scene(facts, commands, _arrays(walk, actors, joint_plots.arrays(staging.tabs)), staging.robot)
+    curves = joint_plots.arrays(staging.tabs) | ({} if forces is None else dict(forces.arrays))
+    return Scene(facts, commands, _arrays(walk, actors, curves), staging.robot)
 
 
 def _subtitle(gait: Gait) -> str:

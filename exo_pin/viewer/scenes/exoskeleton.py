@@ -13,12 +13,16 @@ from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
 from exo_pin.ground import PlacedWalk, aligned, alignment_note, place_walk, toe_angles
 from exo_pin.robot import Robot
-from exo_pin.viewer.scenes import joint_plots, person_figure
+from exo_pin.viewer.scenes import joint_plots, person_figure, walk_plots
 from exo_pin.viewer.scenes.actor import GHOST, Actor, Mount, chain_samples
+from exo_pin.viewer.scenes.force_marks import shown_forces
+from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
-from exo_pin.viewer.scenes.scene import ROOT, Chain, Group, Handle
+from exo_pin.viewer.scenes.scene import ROOT, Chain, Group, Handle, Key
 from exo_pin.viewer.scenes.staging import SceneOptions, Staging
 from exo_pin.viewer.scenes.wearer import wearer as wearer_figure
+
+_GHOST_COLOR = "#5c4d8c"
 
 _BACKPACK = 0.34
 """The device ends this far above the hips [m]."""
@@ -32,6 +36,7 @@ def stage_exoskeleton(
     reference: Gait | None,
     reference_title: str,
     torques: Torques | None,
+    kinetics: Kinetics | None,
     wearer: bool,
 ) -> Staging:
     """The exoskeleton's walk with its figures and curves; errors as in `exoskeleton_scene`.
@@ -43,18 +48,21 @@ def stage_exoskeleton(
         reference: Curves to draw dashed, or None.
         reference_title: What the dashed curves are.
         torques: Joint torques on the walk's clock, or None.
+        kinetics: Forces, torques and powers in the walk's world and on its samples, or None.
         wearer: Whether to draw the person, if the robot was made for one.
     """
     walk = place_walk(robot, gait, options.support)
     tree = linkage(robot.urdf, f"{ROOT}/exo")
     chain = Chain("exo", tree.root, tree.links, tree.joints, "q", "base")
     samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)
-    actors = [Actor(tree.commands, chain, samples, Group("Exoskeleton", tree.visuals))]
-    tabs, notes = joint_plots.of_gait(robot, gait, reference, torques), []
+    actors, keys = [Actor(tree.commands, chain, samples, Group("Exoskeleton", tree.visuals))], list[Key]()
+    tabs, notes = _tabs(robot, walk, gait, reference, torques, kinetics), []
     if options.compare is not None:
         second = aligned(gait, options.compare)
-        actors.append(_ghost(robot, second, options))
-        tabs = joint_plots.with_second_walk(tabs, joint_plots.of_gait(robot, second))
+        placed = place_walk(robot, second, options.support)
+        actors.append(_ghost(robot, placed, options))
+        tabs = joint_plots.with_second_walk(tabs, _tabs(robot, placed, second))
+        keys.append(Key(f"ghost: {options.compare_title}", _GHOST_COLOR))
         notes.append(alignment_note(gait, options.compare))
     top = _BACKPACK
     worn = wearer and robot.body is not None and robot.body.wearer
@@ -76,13 +84,28 @@ def stage_exoskeleton(
         reference="" if reference is None else reference_title,
         compared="" if options.compare is None else options.compare_title,
         top=top,
-        notes=(*notes, *_notes(tree, actors), *joint_plots.notes(torques)),
+        notes=(*notes, *_notes(tree, actors), *joint_plots.notes(torques), *walk_plots.notes(kinetics)),
+        forces=None if kinetics is None else shown_forces(kinetics, walk, tree),
+        keys=tuple(keys),
     )
 
 
-def _ghost(robot: Robot, gait: Gait, options: SceneOptions) -> Actor:
+def _tabs(
+    robot: Robot,
+    walk: PlacedWalk,
+    gait: Gait,
+    reference: Gait | None = None,
+    torques: Torques | None = None,
+    kinetics: Kinetics | None = None,
+) -> tuple[joint_plots.Tab, ...]:
+    """Angles and velocities first, then the pelvis; forces, torques and powers where they are known."""
+    angles, speeds, *file = joint_plots.of_gait(robot, gait, reference, torques)
+    forces = () if kinetics is None else walk_plots.of_kinetics(robot, kinetics)
+    return angles, speeds, walk_plots.pelvis(walk), *file, *forces
+
+
+def _ghost(robot: Robot, walk: PlacedWalk, options: SceneOptions) -> Actor:
     """A second walk of the same exoskeleton, on the clock of the first."""
-    walk = place_walk(robot, gait, options.support)
     tree = linkage(robot.urdf, f"{ROOT}/ghost", paint=GHOST)
     chain = Chain("ghost", tree.root, tree.links, tree.joints, "ghost_q", "ghost_base")
     samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)

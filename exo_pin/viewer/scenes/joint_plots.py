@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.anatomy import JOINTS
+from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques, time_series
 from exo_pin.robot import Robot
@@ -37,9 +37,9 @@ class Unit(NamedTuple):
     least: float
 
 
-_DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
+DEGREES = Unit("°", 180 / math.pi, 1, 20.0)
 _DEGREES_PER_SECOND = Unit("°/s", 180 / math.pi, 0, 60.0)
-_NEWTON_METRES = Unit(" N m", 1.0, 0, 20.0)
+NEWTON_METRES = Unit("N m", 1.0, 0, 20.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +57,9 @@ class Tab:
         reference: `(m, J)` dashed curves on a time of their own, or None.
         reference_time: `(m,)` from 0 [s].
         compared: `(n, J)` dotted curves of a second walk on the scene's time, or None.
+        dashes: What the dashed curves are, where they are not the walk's reference.
+        units: By movement, where it has a unit of its own.
+        signs: By movement, what a positive value means; "": the title says it. Left out: the movement's name.
     """
 
     title: str
@@ -69,6 +72,9 @@ class Tab:
     reference: Array | None = None
     reference_time: Array | None = None
     compared: Array | None = None
+    dashes: str = ""
+    units: Mapping[str, Unit] = field(default_factory=dict)
+    signs: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def dashed(self) -> str:
@@ -107,20 +113,26 @@ def of_gait(
     """
     if not set(JOINTS) <= set(robot.joints):
         gait = robot.to_gait(robot.from_gait(gait), gait)
-    lower, upper = _clinical(robot, robot.lower, -np.inf), _clinical(robot, robot.upper, np.inf)
-    speed, effort = _clinical(robot, robot.velocity, np.inf), _clinical(robot, robot.effort, np.inf)
+    lower, upper = (
+        in_clinical_order(robot, robot.lower, -np.inf),
+        in_clinical_order(robot, robot.upper, np.inf),
+    )
+    speed, effort = (
+        in_clinical_order(robot, robot.velocity, np.inf),
+        in_clinical_order(robot, robot.effort, np.inf),
+    )
     angles, speeds, time = None, None, None
     if reference is not None:
         angles, speeds, time = reference.q, reference.dq, reference.time - reference.time[0]
     tabs = (
-        Tab("Angles", "angles", JOINTS, gait.q, lower, upper, _DEGREES, angles, time),
+        Tab("Angles", "angles", JOINTS, gait.q, lower, upper, DEGREES, angles, time),
         Tab("Velocities", "speeds", JOINTS, gait.dq, -speed, speed, _DEGREES_PER_SECOND, speeds, time),
     )
     if torques is None:
         return tabs
     known = [JOINTS.index(joint) for joint in torques.joints]
     tau, limit = torques.at(gait.time)[:, known], effort[known]
-    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -limit, limit, _NEWTON_METRES))
+    return (*tabs, Tab("Torques", "torques", torques.joints, tau, -limit, limit, NEWTON_METRES))
 
 
 def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None = None) -> tuple[Tab, ...]:
@@ -141,7 +153,7 @@ def of_robot(robot: Robot, time: Array, q: Array, joints: Sequence[str] | None =
     speeds, speed = time_series.derivative(time, angles, 1, None), robot.velocity[own]
     lower, upper = robot.lower[own], robot.upper[own]
     return (
-        Tab("Angles", "angles", tuple(names), angles, lower, upper, _DEGREES),
+        Tab("Angles", "angles", tuple(names), angles, lower, upper, DEGREES),
         Tab("Velocities", "speeds", tuple(names), speeds, -speed, speed, _DEGREES_PER_SECOND),
     )
 
@@ -154,7 +166,9 @@ def with_second_walk(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, .
 
 def groups(tabs: Iterable[Tab]) -> tuple[PlotGroup, ...]:
     """The tabs as the page reads them: one plot for left and right of a joint."""
-    return tuple(PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab)) for tab in tabs)
+    return tuple(
+        PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab), tab.dashes) for tab in tabs
+    )
 
 
 def arrays(tabs: Iterable[Tab]) -> dict[str, Array]:
@@ -186,8 +200,14 @@ def pairs(joints: Sequence[str]) -> dict[str, dict[PlotSide, int]]:
     return {name: found[name] for name in (*_FIRST, *found) if name in found}
 
 
-def _clinical(robot: Robot, limits: Array, missing: float) -> Array:
-    """`(12,)` limits in the order of `JOINTS`; `missing` where the robot has no such joint."""
+def in_clinical_order(robot: Robot, limits: Array, missing: float) -> Array:
+    """`(12,)` limits in the order of `JOINTS`.
+
+    Args:
+        robot: Whose limits.
+        limits: `(J,)` in the order of its own joints.
+        missing: Value for a joint that it lacks.
+    """
     own = dict(zip(robot.joints, limits, strict=True))
     return np.array([own.get(joint, missing) for joint in JOINTS])
 
@@ -204,9 +224,9 @@ def _plots(tab: Tab) -> tuple[Plot, ...]:
     lower, upper = (np.clip(limit, -_NO_LIMIT, _NO_LIMIT).tolist() for limit in (tab.lower, tab.upper))
     for movement, sides in pairs(tab.joints).items():
         title = movement.removesuffix("_joint").replace("_", " ")
+        sign = tab.signs.get(movement, title.rpartition(" ")[2] if movement in MOVEMENTS else "")
         series = tuple(Series(side, k, lower[k], upper[k]) for side, k in sides.items())
-        unit = tab.unit
-        plots.append(
-            Plot(title[:1].upper() + title[1:], series, unit.factor, unit.name, unit.digits, unit.least)
-        )
+        unit = tab.units.get(movement, tab.unit)
+        shown = unit.factor, unit.name, unit.digits, unit.least
+        plots.append(Plot(title[:1].upper() + title[1:], series, *shown, sign))
     return tuple(plots)

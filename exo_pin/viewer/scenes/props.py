@@ -22,7 +22,7 @@ from exo_pin.viewer.drawing_commands import (
     sphere,
 )
 from exo_pin.viewer.meshes.solids import translation
-from exo_pin.viewer.scenes.scene import Belt
+from exo_pin.viewer.scenes.scene import Belt, Box
 
 SIDE_COLORS: dict[Side, tuple[float, float, float]] = {
     "left": (0.82, 0.24, 0.29),
@@ -44,6 +44,11 @@ _STUDIO = {"AmbientLight": 0.12, "PointLightNegativeX": 0.06, "PointLightPositiv
 DECK = 0.118
 """Height of the belt above the floor [m]."""
 
+_TAIL, _HOOD, _BREADTH = (
+    0.2,
+    0.34,
+    0.85,
+)  # of a treadmill: what its rails reach beyond the belt, hood, width [m]
 _SLAT = 0.175  # distance of the slats is about this [m]
 _RING = 8  # corners of a tube's cross-section
 
@@ -122,10 +127,10 @@ def treadmill(path: str, mill: Treadmill) -> list[Command]:
     dark = Material((0.10, 0.11, 0.12, 1.0), 0.8, 0.05)
     metal = Material((0.30, 0.33, 0.37, 1.0), 0.45, 0.25)
     signal = Material((0.95, 0.55, 0.12, 1.0), 0.5, 0.0)
-    long = mill.length + 0.2
+    long, hood = mill.length + _TAIL, mill.length / 2 + _HOOD / 2
     parts = [
         ("belt", (mill.length, 0.62, 0.03), (0.0, 0.0, -0.0151), dark),
-        ("hood", (0.34, 0.85, 0.15), (mill.length / 2 + 0.17, 0.0, -0.042), metal),
+        ("hood", (_HOOD, _BREADTH, 0.15), (hood, 0.0, -0.042), metal),
     ]
     for name, s in (("left", 1), ("right", -1)):
         parts.append((f"rail_{name}", (long, 0.11, DECK), (0.0, 0.365 * s, -DECK / 2 + 0.002), metal))
@@ -134,6 +139,13 @@ def treadmill(path: str, mill: Treadmill) -> list[Command]:
     for name, size, at, material in parts:
         commands += [draw(f"{path}/{name}", box(size), material), place(f"{path}/{name}", translation(*at))]
     return commands + _slats(f"{path}/slats", mill)
+
+
+def frame(mill: Treadmill) -> Box:
+    """What a camera has to frame to show all of the treadmill."""
+    back, front = -(mill.length + _TAIL) / 2, mill.length / 2 + _HOOD
+    center = (mill.center + (back + front) / 2, 0.0, mill.height - DECK / 2)
+    return Box(center, (front - back, _BREADTH, DECK))
 
 
 def belt(path: str, mill: Treadmill) -> Belt:

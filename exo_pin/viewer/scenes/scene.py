@@ -95,7 +95,8 @@ class Series:
 class Plot:
     """One plot: values are shown times `factor`, in `unit`, with `digits` decimals.
 
-    `least` is the smallest range of the axis, so that a still joint does not look restless.
+    `least` is the smallest range of the axis, so that a still joint does not look restless; `sign` is what a
+    positive value means, empty where the title says it.
     """
 
     title: str
@@ -104,17 +105,22 @@ class Plot:
     unit: str
     digits: int
     least: float
+    sign: str
 
 
 @dataclass(frozen=True)
 class PlotGroup:
-    """One tab of plots: the arrays that it shows (solid, dashed, dotted) and its plots."""
+    """One tab of plots: the arrays that it shows (solid, dashed, dotted) and its plots.
+
+    `dashes` is what the dashed curves are, where they are not the walk's reference.
+    """
 
     title: str
     values: str
     reference: str
     compared: str
     plots: tuple[Plot, ...]
+    dashes: str = ""
 
 
 @dataclass(frozen=True)
@@ -155,6 +161,67 @@ class Marks:
 
 
 @dataclass(frozen=True)
+class Arrow:
+    """A force: its node, arrays of the force `(n, 3)` [N] and of where it acts `(n, 3)` [m], a CSS colour."""
+
+    path: str
+    force: str
+    point: str
+    color: str
+
+
+@dataclass(frozen=True)
+class Arc:
+    """The torque of a joint, as an arc around its axis.
+
+    Attributes:
+        path: Of its node.
+        cap: Path of the node for the disc that shows the motor's load.
+        axis: Unit axis in the axes of the node.
+        middle: Where on the axis its centre lies, at the outer face of the motor [m]; 0: no motor is there.
+        radius: Of the arc [m].
+        column: Of its torque and load.
+    """
+
+    path: str
+    cap: str
+    axis: tuple[float, float, float]
+    middle: float
+    radius: float
+    column: int
+
+
+@dataclass(frozen=True)
+class ForceMarks:
+    """Forces and torques in the picture.
+
+    Attributes:
+        arrows: The forces.
+        length: Of an arrow [m/N].
+        arcs: The torques.
+        torque: Name of their array `(n, 12)` [N m].
+        scale: Of an arc [N m/degree].
+        load: Name of the array of motors' loads `(n, 12)`, 0 to 1; empty: not shown.
+    """
+
+    arrows: tuple[Arrow, ...]
+    length: float
+    arcs: tuple[Arc, ...]
+    torque: str
+    scale: float
+    load: str
+
+
+@dataclass(frozen=True)
+class Key:
+    """An entry of the legend: its name, a CSS colour, and what it means in a sentence."""
+
+    title: str
+    color: str
+    hint: str = ""
+
+
+@dataclass(frozen=True)
 class Box:
     """What a camera has to frame [m]."""
 
@@ -183,7 +250,9 @@ class Facts:
         plots: The tabs of plots.
         groups: What can be shown or hidden.
         marks: What moves besides the figures.
-        boxes: `whole` and `feet`, for the cameras.
+        forces: Forces and torques in the picture; None: they are not known.
+        keys: Further entries of the legend.
+        boxes: `whole`, `feet` and, if there is one, `treadmill`, for the cameras.
         follow: Whether the cameras go along with the pelvis.
         speed: Playback speed at first, 1 = as it happened.
         twins: Nodes that show the same as another: (path, source).
@@ -207,6 +276,8 @@ class Facts:
     plots: tuple[PlotGroup, ...]
     groups: tuple[Group, ...]
     marks: Marks
+    forces: ForceMarks | None
+    keys: tuple[Key, ...]
     boxes: Mapping[str, Box]
     follow: bool
     speed: float

@@ -10,8 +10,9 @@ from exo_pin.gait import Gait
 from exo_pin.ground import STYLES, PlacedWalk
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes.actor import Actor, Mount
+from exo_pin.viewer.scenes.force_marks import ShownForces
 from exo_pin.viewer.scenes.joint_plots import Tab
-from exo_pin.viewer.scenes.scene import Handle
+from exo_pin.viewer.scenes.scene import Handle, Key
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +61,8 @@ class Staging:
         compared: What the dotted curves are, or empty.
         top: How far the picture reaches above the robot's root [m].
         notes: What to know about the picture, in sentences.
+        forces: Forces and torques in the picture, if they are known.
+        keys: Further entries of the legend.
     """
 
     robot: Robot
@@ -73,3 +76,5 @@ class Staging:
     compared: str
     top: float
     notes: tuple[str, ...]
+    forces: ShownForces | None = None
+    keys: tuple[Key, ...] = ()

@@ -53,18 +53,26 @@ def world(gait: Gait, walk: PlacedWalk, feet: Sequence[Mount]) -> tuple[list[Com
     return commands, Marks(f"{ROOT}/marks/com/ball", f"{ROOT}/marks/com/disc", 0.003, contact, belt)
 
 
-def boxes(walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
-    """What the cameras frame: the whole figure up to a height above the hips [m], and the feet."""
+def boxes(gait: Gait, walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
+    """What the cameras frame: the whole figure, the feet, and the treadmill if there is one.
+
+    Args:
+        gait: The walk's duration.
+        walk: The walk on its ground.
+        above_hips: How far the figure reaches above the hips [m].
+    """
     framed = slice(1 if walk.support.overground else None)  # over ground the cameras go along
     y, z = float(walk.base[framed, 1, 3].mean()), float(walk.base[0, 2, 3])
     here = walk.corners[framed, :, 0]
     low, high = float(here.min()) - 0.05, float(here.max()) + 0.12
     bottom, top = (0.0 if walk.support.overground else -props.DECK), z + above_hips
     middle = (low + high) / 2
-    return {
+    found = {
         "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),
         "feet": Box((middle, y, 0.12), (high - low, 0.6, 0.4)),
     }
+    mill = None if walk.support.overground else props.frame(_treadmill(walk, gait))
+    return found if mill is None else found | {"treadmill": mill}
 
 
 def _treadmill(walk: PlacedWalk, gait: Gait) -> props.Treadmill:

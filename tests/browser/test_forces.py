@@ -1,0 +1,89 @@
+"""Forces in a browser: arrows at the feet, arcs around the joints."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from exo_pin import viewer
+from exo_pin.dynamics import torques
+
+SINGLE = 1e-4  # [m] of an arrow: float32
+SHORTEST = 0.03  # [m] a shorter arrow is not drawn
+STEP = np.radians(3.1)  # an arc grows by steps of 3 degrees
+
+
+@pytest.fixture(scope="module")
+def found(robot, gait):
+    return torques(robot, gait)
+
+
+@pytest.fixture(scope="module")
+def address(robot, gait, found, tmp_path_factory):
+    scene = viewer.scene(robot, gait, kinetics=viewer.Kinetics.of_dynamics(found), wearer=False)
+    path = tmp_path_factory.mktemp("forces") / "walk.html"
+    path.write_text(viewer.html(scene), "utf-8")
+    return path.as_uri()
+
+
+@pytest.fixture(scope="module")
+def opened(browser, address):
+    browser.resize(1000, 680)
+    browser.open(address)
+    return browser
+
+
+ARROW = """(k => {{ const {{ group, shaft, head }} = exo.forces.arrows[k];
+  const tip = new MeshCat.THREE.Vector3(0, head.position.y + 0.07 * head.scale.y, 0);
+  tip.applyQuaternion(group.quaternion);
+  return {{ shown: group.visible, tip: tip.toArray(), at: group.position.toArray() }};
+}})({})"""
+
+ARC = """(k => {{ const {{ group, head, radius, axis, column }} = exo.forces.arcs[k];
+  const flip = group.children[0];
+  flip.updateMatrix();
+  const pose = new MeshCat.THREE.Matrix4().makeRotationFromQuaternion(group.quaternion).multiply(flip.matrix);
+  const place = (x, y) => new MeshCat.THREE.Vector3(x, y, 0).applyMatrix4(pose);
+  const [from, to] = [place(radius, 0), place(head.position.x, head.position.y)];
+  return {{ shown: group.visible, from: from.toArray(), to: to.toArray(), axis, column }};
+}})({})"""
+
+
+def test_an_arrow_is_as_long_as_its_force_and_points_its_way(opened, gait, found):
+    for k in (10, 30, 55):
+        opened.evaluate(f"exo.seek({gait.time[k]}); exo.apply()")
+        for foot in (0, 1):
+            arrow = opened.evaluate(ARROW.format(foot))
+            wanted = 0.6 * found.ground.force[k, foot] / found.weight_force
+            assert arrow["shown"] == (np.linalg.norm(wanted) > SHORTEST)
+            if arrow["shown"]:
+                assert np.abs(np.array(arrow["tip"]) - wanted).max() < SINGLE
+                assert arrow["at"][2] == 0.0
+
+
+def test_an_arc_turns_as_its_torque_does_about_the_joints_axis(opened, gait, found):
+    peak, seen = np.nanmax(np.abs(found.torque)), set()
+    for k in (10, 30, 55, 80):
+        opened.evaluate(f"exo.seek({gait.time[k]}); exo.apply()")
+        for joint in range(12):
+            arc = opened.evaluate(ARC.format(joint))
+            torque = found.torque[k, arc["column"]]
+            angle = np.radians(300) * abs(torque) / peak
+            if arc["shown"] and angle < np.radians(170):
+                start, end = np.array(arc["from"]), np.array(arc["to"])
+                turn = np.cross(start, end) @ np.array(arc["axis"])
+                assert np.arctan2(turn, start @ end) == pytest.approx(np.sign(torque) * angle, abs=STEP)
+                seen.add(np.sign(torque))
+    assert seen == {-1.0, 1.0}
+
+
+def test_the_legend_says_that_the_ground_reaction_is_predicted(opened):
+    assert "ground reaction, predicted" in opened.evaluate("document.getElementById('legend').innerText")
+    assert "N" in opened.evaluate("document.querySelector('#keys span').title")
+
+
+def test_forces_are_hidden_while_the_exoskeleton_is_posed_by_hand(opened):
+    opened.evaluate("exo.seek(0.3); exo.apply(); exo.poseByHand(exo.chains[0].q)")
+    assert opened.evaluate("exo.forces.arrows.every(({ group }) => !group.visible)")
+    opened.evaluate("exo.apply()")
+    assert opened.evaluate("exo.forces.arrows.some(({ group }) => group.visible)")
