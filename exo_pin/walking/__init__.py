@@ -1,0 +1,29 @@
+"""Walking: footsteps become a walk of the whole body that nothing has to hold, by the inverted pendulum."""
+
+from exo_pin.walking.footsteps import Footstep, Footsteps, footsteps
+from exo_pin.walking.pendulum import (
+    com_of_zmp,
+    divergent_component,
+    fall,
+    orbital_energy,
+    time_constant,
+    zmp_of_com,
+)
+from exo_pin.walking.plan import Plan, plan_walk
+from exo_pin.walking.support_polygon import convex_hull, margin
+
+__all__ = [
+    "Footstep",
+    "Footsteps",
+    "Plan",
+    "com_of_zmp",
+    "convex_hull",
+    "divergent_component",
+    "fall",
+    "footsteps",
+    "margin",
+    "orbital_energy",
+    "plan_walk",
+    "time_constant",
+    "zmp_of_com",
+]

@@ -1,0 +1,68 @@
+"""Footsteps: where they are, and what is no walk."""
+
+import math
+
+import numpy as np
+import pytest
+
+from exo_pin.errors import ExoPinError
+from exo_pin.walking import Footstep, Footsteps, footsteps
+
+
+def test_straight_steps_go_ahead_by_their_length_and_the_last_one_closes():
+    walk = footsteps(3, 0.3, width=0.2)
+    assert [step.side for step in walk.steps] == ["left", "right", "left", "right"]
+    assert np.allclose([step.x for step in walk.steps], [0.3, 0.6, 0.9, 0.9])
+    assert np.allclose([step.y for step in walk.steps], [0.1, -0.1, 0.1, -0.1])
+
+
+def test_a_positive_turn_goes_to_the_left():
+    last = footsteps(8, 0.25, turn=math.radians(10.0), width=0.2).steps[-1]
+    assert last.y > 0.5
+    assert last.heading == pytest.approx(math.radians(80.0))
+
+
+def test_steps_seen_from_the_standing_foot_are_all_alike():
+    seen = footsteps(6, 0.25, turn=0.1, width=0.2).relative()[1:-1]
+    assert np.allclose(seen[:-2], seen[2:])
+
+
+def test_shortened_steps_keep_width_and_turn():
+    walk = footsteps(4, 0.3, width=0.2, turn=0.1)
+    half = walk.shortened(0.5).relative()
+    assert np.allclose(half, walk.relative() * [0.5, 1.0, 1.0])
+
+
+def test_mirrored_twice_is_the_same_walk():
+    walk = footsteps(4, 0.3, turn=0.1)
+    assert walk.mirrored().mirrored() == walk
+    assert walk.mirrored().steps[0].side == "right"
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"steps": 0},
+        {"steps": 100_000},
+        {"steps": 2.5},
+        {"length": math.nan},
+        {"length": 3.0},
+        {"width": 0.0},
+        {"turn": math.inf},
+        {"step_time": 0.0},
+        {"double_support": 0.0},
+        {"double_support": 1.0},
+        {"double_support": math.nan},
+        {"clearance": -0.1},
+        {"start": "middle"},
+    ],
+)
+def test_what_is_no_walk_is_refused(bad):
+    with pytest.raises(ExoPinError):
+        footsteps(**bad)
+
+
+def test_feet_take_turns():
+    left, right = Footstep("left", 0.0, 0.1), Footstep("right", 0.0, -0.1)
+    with pytest.raises(ExoPinError, match="steps 1 and 2 are both of the left foot"):
+        Footsteps((left, right), (left, left))
