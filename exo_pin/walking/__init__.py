@@ -9,8 +9,8 @@ from exo_pin.walking.pendulum import (
     time_constant,
     zmp_of_com,
 )
-from exo_pin.walking.plan import Plan, plan_walk
 from exo_pin.walking.support_polygon import convex_hull, margin
+from exo_pin.walking.walk_plan import Plan, plan_walk
 
 __all__ = [
     "Footstep",

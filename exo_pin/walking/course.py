@@ -12,7 +12,7 @@ from exo_pin.walking import schedule
 from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.pendulum import resting_zmp
 from exo_pin.walking.schedule import Phase, PhaseSamples
-from exo_pin.walking.soles import Soles, on_soles
+from exo_pin.walking.sole_shape import Soles, on_soles
 from exo_pin.walking.swing_foot import FootPaths, foot_paths
 
 

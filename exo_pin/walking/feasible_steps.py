@@ -14,7 +14,7 @@ from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.pelvis_height import LegRoom
 from exo_pin.walking.pendulum import time_constant
 from exo_pin.walking.schedule import step_at
-from exo_pin.walking.soles import Soles, on_soles
+from exo_pin.walking.sole_shape import Soles, on_soles
 
 LEAST_GAP = 0.01
 """Between the soles of both feet, sideways [m]."""

@@ -16,7 +16,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
 from exo_pin.walking.footsteps import Footstep, Footsteps
 from exo_pin.walking.schedule import PhaseSamples
-from exo_pin.walking.soles import Soles
+from exo_pin.walking.sole_shape import Soles
 
 
 class FootPaths(NamedTuple):

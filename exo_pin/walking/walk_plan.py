@@ -23,7 +23,7 @@ from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.pelvis_height import LegRoom, best_height
 from exo_pin.walking.pendulum import com_of_zmp
 from exo_pin.walking.planned_forces import planned_dynamics
-from exo_pin.walking.soles import on_soles, soles
+from exo_pin.walking.sole_shape import on_soles, soles
 from exo_pin.walking.support_polygon import zmp_margins
 from exo_pin.walking.whole_body import WholeBody, filtered, pelvis_poses
 
