@@ -69,13 +69,13 @@ def foot_plates(ground: GroundForces, time: Array, valid: Mask) -> dict[Side, Fo
     found: dict[Side, ForcePlate] = {}
     for k, side in enumerate(SIDES):
         force, wrench = ground.force[run, k], ground.wrench[run, k]
-        point = _held(ground.point[run, k])
+        point = held(ground.point[run, k])
         moment = wrench[:, 3:] - np.cross(point, force)
         found[side] = ForcePlate(f"{side} foot", time[run], force, point, moment)
     return found
 
 
-def _held(point: Array) -> Array:
+def held(point: Array) -> Array:
     """Points `(n, 3)` whose gaps have the nearest known one; 0 where there is none."""
     known = np.flatnonzero(np.isfinite(point).all(axis=1))
     if not len(known):

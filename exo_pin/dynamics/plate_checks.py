@@ -10,10 +10,12 @@ import numpy as np
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
+from exo_pin.dynamics.standing_under_load import ON_THE_SPOT
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.kinematics import PlateStep
+from exo_pin.kinematics.plate_contacts import LOADED_PART
 
 _CONTACT = 20.0
 """Vertical force of a contact [N], as `exo_pin.gait.force_plates` has it."""
@@ -21,14 +23,14 @@ _CONTACT = 20.0
 _TRACE = 0.05
 """A largest force between this and a contact's [N] is a foot's force in kN."""
 
+_LEVEL = 2.0
+"""No foot pushes the ground this many times harder to the front or side than down."""
+
 _LONGEST_ARM = 0.5
 """A free moment per newton [m] that no sole can give; N mm given as N m is a thousand times too large."""
 
 _OPPOSITE, _FRAMES = -0.3, 20
 """Correlation of horizontal force and acceleration below which they are opposite, over so many frames."""
-
-_ON_THE_SPOT = 0.3
-"""A walk whose pelvis stays within this length [m] is on a treadmill."""
 
 _IN_THE_AIR = 0.08
 """Height [m] of a sole's lowest corner above the plate from which the foot is not standing on it."""
@@ -109,6 +111,12 @@ def _check_clock(gait: Gait, plate: ForcePlate) -> None:
 
 def _check_direction(plate: ForcePlate) -> None:
     highest, lowest = (float(f(plate.force[:, 2])) for f in (np.max, np.min))
+    level = float(np.abs(plate.force[:, :2]).max())
+    if level > max(_LEVEL * max(highest, -lowest), _CONTACT):
+        raise GaitError(
+            f"{plate.name}: the largest force is horizontal, {level:.0f} N ({max(highest, -lowest):.0f} N "
+            "along the vertical): are its axes in another order? The axes of the walk are accepted"
+        )
     if -lowest > max(highest, _CONTACT):
         raise GaitError(
             f"{plate.name}: the force points down ({lowest:.0f} N), its sign is turned; the force of the "
@@ -149,13 +157,14 @@ def _check_moment(plate: ForcePlate) -> None:
 
 
 def check_points(step: PlateStep) -> None:
-    """Refuse a contact whose point or moment is not known throughout.
+    """Refuse a contact whose point or moment is not known while it bears a load.
 
     Raises:
         GaitError: With the plate and the time.
     """
     plate, rows = step.plate, slice(step.contact.start, step.contact.stop)
     good = np.isfinite(plate.point[rows]).all(axis=1) & np.isfinite(plate.moment[rows]).all(axis=1)
+    good |= plate.force[rows, 2] < LOADED_PART * plate.force[rows, 2].max()
     if not good.all():
         t = plate.time[rows][int(np.argmin(good))]
         raise GaitError(
@@ -176,7 +185,7 @@ def check_steps(gait: Gait, steps: Sequence[PlateStep], heights: Mapping[Side, A
         GaitError: With the plate, the time and the reason.
     """
     if not any(step.side for step in steps):
-        why = "; ".join(f"{_when(step)}: {step.why}" for step in steps[:2] if step.why)
+        why = "; ".join(f"{step.when}: {step.why}" for step in steps[:2] if step.why)
         raise GaitError(f"no contact of a foot with a force plate was found{': ' * bool(why)}{why}")
     for step in steps:
         if step.side is not None:
@@ -198,7 +207,7 @@ def check_both_feet(gait: Gait, steps: Sequence[PlateStep], stands: Mask) -> Non
     path = np.ptp(gait.base[:, :2, 3], axis=0)
     both_walk = bool((stands.any(axis=0) & ~stands.all(axis=0)).all())
     for side in SIDES:
-        if both_walk and path.max() < _ON_THE_SPOT and not any(step.side == side for step in steps):
+        if both_walk and path.max() < ON_THE_SPOT and not any(step.side == side for step in steps):
             raise GaitError(
                 f"no plate bears the {side} foot, though the walk stays in place as on a treadmill: "
                 "the forces of both feet are accepted"
@@ -214,11 +223,6 @@ def _check_height(gait: Gait, step: PlateStep, height: Array) -> None:
     above = float(np.median(np.interp(t, gait.time, height))) - ground
     if above > _IN_THE_AIR:
         raise GaitError(
-            f"{_when(step)}: the {step.side} foot is {100 * above:.0f} cm above the plate while that is "
+            f"{step.when}: the {step.side} foot is {100 * above:.0f} cm above the plate while that is "
             "loaded: another clock, or another trial?"
         )
-
-
-def _when(step: PlateStep) -> str:
-    plate, contact = step.plate, step.contact
-    return f"{plate.name}, {plate.time[contact.start]:.2f} .. {plate.time[contact.stop - 1]:.2f} s"

@@ -10,9 +10,10 @@ import numpy as np
 
 from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array, Mask
-from exo_pin.dynamics.ground_forces import GroundForces, from_wrenches
+from exo_pin.dynamics.ground_forces import GroundForces, from_wrenches, held
 from exo_pin.dynamics.plate_checks import check_both_feet, check_plates, check_points, check_steps
 from exo_pin.dynamics.plate_clock import check_event_times
+from exo_pin.dynamics.standing_under_load import NOBODY, check_standing
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import ForcePlate
@@ -28,9 +29,6 @@ kinematics are that uncertain."""
 
 _BEFORE_END = 1e-6
 """The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
-
-_NOBODY = "no foot is there"
-"""Why a contact belongs to no foot, where nothing under the feet can be missing because of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +60,10 @@ def plate_forces(robot: Robot, gait: Gait, forces: Sequence[ForcePlate]) -> Plat
     check_plates(gait, forces)
     corners = poses(robot, robot.from_gait(gait), CORNERS)[..., :3, 3]
     steps = steps_under(gait, heels_and_balls(corners), forces)
+    moving = _events(robot, gait)
+    stands = _standing_feet(gait, steps, corners, moving)
+    check_standing(gait, corners, steps, gait.events or moving)
     check_steps(gait, steps, lowest_corners(corners))
-    stands = _standing_feet(robot, gait, steps, corners)
     wrench, height = np.zeros((len(gait), 2, 6)), np.zeros((len(gait), 2))
     for step in steps:
         if step.side is not None:
@@ -88,8 +88,9 @@ def _at(step: PlateStep, time: Array) -> tuple[Array, Array]:
     plate, contact = step.plate, step.contact
     rows = slice(contact.start, contact.stop)
     check_points(step)
-    force, point = plate.force[rows], plate.point[rows]
-    t, wrench = plate.time[rows], np.hstack([force, np.cross(point, force) + plate.moment[rows]])
+    force, point = plate.force[rows], held(plate.point[rows])
+    moment = np.cross(point, force) + np.nan_to_num(plate.moment[rows])
+    t, wrench = plate.time[rows], np.hstack([force, moment])
     if contact.strike is not None:  # it begins and ends with no force, where the plates saw that
         t, wrench = np.concatenate([[contact.strike], t]), np.vstack([np.zeros(6), wrench])
     if contact.off is not None:
@@ -99,15 +100,20 @@ def _at(step: PlateStep, time: Array) -> tuple[Array, Array]:
     return own, np.where(inside, float(np.median(point[:, 2])), np.nan)
 
 
-def _standing_feet(robot: Robot, gait: Gait, steps: Sequence[PlateStep], corners: Array) -> Mask:
+def _events(robot: Robot, gait: Gait) -> tuple[Event, ...]:
+    """Heel strikes and toe-offs of the motion; none where somebody stands, or in a part of a stance."""
+    with contextlib.suppress(GaitError):
+        return events(robot, gait)
+    return ()
+
+
+def _standing_feet(gait: Gait, steps: Sequence[PlateStep], corners: Array, moving: Sequence[Event]) -> Mask:
     """`(n, 2)` which foot stands, by plates and events, else by the heights of the soles.
 
     Raises:
         GaitError: The events of the plates are at other times than those of the feet.
     """
-    measured, moving = step_events(gait, steps), tuple[Event, ...]()
-    with contextlib.suppress(GaitError):  # standing, or a part of a stance: no walk
-        moving = events(robot, gait)
+    measured = step_events(gait, steps)
     check_event_times(moving, measured)
     walk = merged_events(gait, gait.events or moving, measured)
     stance = stance_from_events(walk) or estimated_stance(gait, lowest_corners(corners))
@@ -129,7 +135,7 @@ def _unassigned(steps: Sequence[PlateStep], time: Array) -> Mask:
     """`(n,)` whether a plate bears a force whose foot is not known, or two feet."""
     shared = np.zeros(len(time), dtype=bool)
     for step in steps:
-        if step.side is None and step.why != _NOBODY:
+        if step.side is None and step.why != NOBODY:
             shared |= _during(step, time, 0.0)
     return shared
 
@@ -150,7 +156,7 @@ def _remarks(
         (shared & ~beside & ~outside, "the force of a plate is not one foot's alone"),
     ]
     out = [f"{int(mask.sum())} of {n} frames are not valid: {why}" for mask, why in reasons if mask.any()]
-    nobody = {step.plate.name for step in steps if step.why == _NOBODY}
+    nobody = {step.plate.name for step in steps if step.why == NOBODY}
     if nobody:
-        out.append(f"a force on {', '.join(sorted(nobody))} is not used: {_NOBODY}")
+        out.append(f"a force on {', '.join(sorted(nobody))} is not used: {NOBODY}")
     return tuple(out)

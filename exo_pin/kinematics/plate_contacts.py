@@ -19,7 +19,7 @@ from exo_pin.kinematics.sole_contact import with_events
 from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
 
-_FARTHEST = 0.3
+FARTHEST = 0.3
 """A foot whose sole is further from the force than this [m] is not the one on the plate."""
 
 _SAME_CONTACT = 0.2
@@ -34,7 +34,7 @@ _CLEARLY = 0.5
 _SHARED = 0.05
 """A force that acts so long [s] under the other foot, or away from the foot, is not one foot's alone."""
 
-_LOADED = 0.1
+LOADED_PART = 0.1
 """Part of a contact's largest force from which on its centre of pressure is used: with less it wanders."""
 
 
@@ -52,6 +52,12 @@ class PlateStep(NamedTuple):
     contact: force_plates.Contact
     side: Side | None
     why: str
+
+    @property
+    def when(self) -> str:
+        """The plate, and from when to when it was loaded, in words."""
+        start, stop = self.plate.time[self.contact.start], self.plate.time[self.contact.stop - 1]
+        return f"{self.plate.name}, {start:.2f} .. {stop:.2f} s"
 
 
 class _PlateEvents(NamedTuple):
@@ -117,10 +123,9 @@ def steps_under(gait: Gait, soles: Array, forces: Iterable[ForcePlate]) -> tuple
 def _plate_events(robot: Robot, gait: Gait, forces: Iterable[ForcePlate]) -> _PlateEvents:
     """Events and what gives none; errors as of `plate_events`."""
     steps, unused = plate_steps(robot, gait, forces), dict[str, list[str]]()  # reason -> contacts
-    for plate, contact, _, why in steps:
-        if why:
-            start, stop = plate.time[contact.start], plate.time[contact.stop - 1]
-            unused.setdefault(why, []).append(f"{plate.name}, {start:.2f} .. {stop:.2f} s")
+    for step in steps:
+        if step.why:
+            unused.setdefault(step.why, []).append(step.when)
     found = step_events(gait, steps)
     contacts = [f"{'; '.join(of)}: {why}" for why, of in unused.items()]
     if not found:
@@ -201,7 +206,7 @@ def _whose(
     rows = slice(contact.start, contact.stop)
     t, point, force = plate.time[rows], plate.point[rows, :2], plate.force[rows, 2]
     seen = (t >= time[0]) & (t <= time[-1]) & np.isfinite(point).all(axis=1)
-    seen &= force >= _LOADED * np.nanmax(force)  # a small force acts at no certain point
+    seen &= force >= LOADED_PART * np.nanmax(force)  # a small force acts at no certain point
     if not seen.any():
         return None, ""  # outside the walk
     away = np.empty((len(SIDES), int(seen.sum())))
@@ -212,9 +217,9 @@ def _whose(
     left, right = np.median(away, axis=1)
     nearest = int(right < left)
     mine, other = away[nearest], away[1 - nearest]
-    if np.median(mine) > _FARTHEST:
+    if np.median(mine) > FARTHEST:
         return None, "no foot is there"
-    others = (mine > _FARTHEST) | ((other <= _FARTHEST) & (other < _CLEARLY * mine))
+    others = (mine > FARTHEST) | ((other <= FARTHEST) & (other < _CLEARLY * mine))
     if step * others.sum() >= _SHARED:
         return None, "both feet load it"
     if np.median(mine) > _CLEARLY * np.median(other):

@@ -48,6 +48,15 @@ def test_a_point_of_nobody_is_zero(tmp_path):
     np.testing.assert_array_equal(plate.force[1], [0, 0, 700])  # y up becomes z up
 
 
+def test_a_point_that_is_not_known_under_a_load_stays_so(tmp_path):
+    nan = float("nan")
+    path = written(tmp_path / "grf.mot", [[0, 0, 700, 0, nan, 0, 2, 0, 3, 0], [0.1, 0, 700, 0, 1, 0, 2, 0, nan, 0]])
+    (plate,) = load_forces(path)
+    assert np.isnan(plate.point[0]).any()
+    assert np.isfinite(plate.point[1]).all()
+    assert np.isnan(plate.moment[1]).any()
+
+
 def test_a_force_that_is_no_number_is_refused_with_its_line(tmp_path):
     path = written(tmp_path / "grf.mot", [[0, *[0] * 9], [0.1, "nan", *[0] * 8]])
     with pytest.raises(FormatError, match="ground_force_vx is nan") as caught:

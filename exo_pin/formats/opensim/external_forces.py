@@ -27,7 +27,8 @@ _FORCE_COLUMN = re.compile(
 def force_plates(storage: Storage) -> tuple[ForcePlate, ...]:
     """The force plates of a storage file; OpenSim's axes (y up) become this package's (z up).
 
-    A point or moment that is NaN, as many programs write it while nobody stands on the plate, is 0.
+    A point or moment that is NaN, as many programs write it while nobody stands on the plate, is 0; under a
+    load it stays NaN.
 
     Raises:
         FormatError: With reason: no forces, columns that are missing.
@@ -93,6 +94,6 @@ def _plate(table: NumericTable, time: Array, name: str, columns: dict[str, str])
         most, unit = _MOST[what]
         large = np.abs(values) > most
         table.refuse(large & (loaded | (what == "v")), names, f"more than {most:g} {unit}")
-        parts.append(np.where(large, 0.0, np.nan_to_num(values)) @ FROM_OPENSIM.T)
+        parts.append(np.where(large | (np.isnan(values) & ~loaded), 0.0, values) @ FROM_OPENSIM.T)
     force, point, moment = [*parts, *[np.zeros_like(parts[0])] * (3 - len(parts))]
     return ForcePlate(_title(name), time, force, point, moment)
