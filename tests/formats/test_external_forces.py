@@ -50,7 +50,8 @@ def test_a_point_of_nobody_is_zero(tmp_path):
 
 def test_a_point_that_is_not_known_under_a_load_stays_so(tmp_path):
     nan = float("nan")
-    path = written(tmp_path / "grf.mot", [[0, 0, 700, 0, nan, 0, 2, 0, 3, 0], [0.1, 0, 700, 0, 1, 0, 2, 0, nan, 0]])
+    rows = [[0, 0, 700, 0, nan, 0, 2, 0, 3, 0], [0.1, 0, 700, 0, 1, 0, 2, 0, nan, 0]]
+    path = written(tmp_path / "grf.mot", rows)
     (plate,) = load_forces(path)
     assert np.isnan(plate.point[0]).any()
     assert np.isfinite(plate.point[1]).all()
