@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from exo_pin.arrays import Array
+from exo_pin.control.users_code import users_code
+from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 
@@ -54,7 +56,17 @@ class Controller(Protocol):
 
 
 def reset(controller: Controller, robot: Robot, gait: Gait) -> None:
-    """Call a controller's `reset`, if it has one."""
+    """Call a controller's `reset`, if it has one.
+
+    Args:
+        controller: Of this package or a user's.
+        robot: The model that it believes to control.
+        gait: The walk.
+
+    Raises:
+        DescriptionError: A user's `reset` raises or does not end.
+    """
     begin = getattr(controller, "reset", None)
     if begin is not None:
-        begin(robot, gait)
+        with users_code(lambda why: DescriptionError(f"the controller's reset fails: {why}")):
+            begin(robot, gait)

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import importlib.util
-import traceback
 from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
 
 from exo_pin import arguments
 from exo_pin.control.controller import Controller
+from exo_pin.control.users_code import users_code
 from exo_pin.errors import DescriptionError, FormatError, UnknownNameError
-
-_PACKAGE = Path(__file__).parents[1]
-"""Frames in here are ours, not the user's."""
 
 
 def load_controller(text: str) -> Controller:
@@ -36,21 +33,17 @@ def load_controller(text: str) -> Controller:
         for key, value in vars(module).items()
         if callable(value) and getattr(value, "__module__", "") == module.__name__ and not key.startswith("_")
     }
+    if not own:
+        raise DescriptionError(
+            f"{path} holds neither a class nor a function; one of a controller is accepted"
+        )
     if not name:
         if len(own) != 1:
-            raise DescriptionError(f"{path} holds {', '.join(own) or 'no class'}; name one: {path}:Class")
+            raise DescriptionError(f"{path} holds {', '.join(own)}; name one: {path}:Class")
         name = next(iter(own))
     if name not in own:
         raise UnknownNameError(f"class in {path}", name, own)
     return _made(path, name, own[name])
-
-
-def raised_where(error: BaseException) -> str:
-    """The line at which a user's code raised, and what it says, in one line."""
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [frame for frame in frames if not Path(frame.filename).is_relative_to(_PACKAGE)]
-    place = f"{Path(own[-1].filename).name}:{own[-1].lineno}: " if own else ""
-    return f"{place}{type(error).__name__}: {error}"
 
 
 def _parts(text: str) -> tuple[Path, str]:
@@ -66,19 +59,15 @@ def _module(path: Path) -> ModuleType:
     if spec is None or spec.loader is None:
         raise FormatError(path, "is not a Python file (.py)")
     module = importlib.util.module_from_spec(spec)
-    try:
+    with users_code(lambda why: FormatError(path, f"cannot be run: {why}")):
         spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # whatever a user's file raises
-        raise FormatError(path, f"cannot be run: {raised_where(error)}") from error
     return module
 
 
 def _made(path: Path, name: str, found: object) -> Controller:
     """The controller itself: a class is instantiated, a function taken as it is."""
-    try:
+    with users_code(lambda why: FormatError(path, f"{name}() fails: {why}")):
         controller: Any = found() if isinstance(found, type) else found
-    except Exception as error:  # whatever a user's class raises
-        raise FormatError(path, f"{name}() raises: {raised_where(error)}") from error
     if not callable(controller):
         raise DescriptionError(f"{path}:{name} cannot be called; (time, q, dq, reference) is what it gets")
     return cast(Controller, controller)  # its answer is checked at every step

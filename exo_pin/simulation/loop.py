@@ -12,6 +12,7 @@ import numpy as np
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array, as_floats
 from exo_pin.control import Controller, Patient, Reference, raised_where
+from exo_pin.control.users_code import LONGEST_ANSWER, time_limit
 from exo_pin.errors import DescriptionError, ExoPinError
 from exo_pin.robot import Robot
 from exo_pin.robot.floating_base import base_coordinates
@@ -20,7 +21,6 @@ from exo_pin.simulation.plant import Joints
 from exo_pin.simulation.recording import Columns, Recording
 from exo_pin.simulation.reference_motion import ReferenceMotion
 from exo_pin.simulation.support_force import SupportForce
-from exo_pin.simulation.time_limit import time_limit
 
 _FREE = 6
 
@@ -42,6 +42,13 @@ def _no_log() -> Iterator[None]:
         yield
     finally:
         mujoco.set_mju_user_warning(before)
+
+
+def _too_long(step: int) -> DescriptionError:
+    return DescriptionError(
+        f"the controller does not answer within {LONGEST_ANSWER:g} s in step {step}; "
+        "it is called once a step and returns 12 torques"
+    )
 
 
 def _columns(places: list[int]) -> Columns:
@@ -120,7 +127,7 @@ class Loop:
             DescriptionError: The controller's answer cannot be used.
         """
         record = self._record
-        with time_limit() as progress, _no_log():
+        with time_limit(LONGEST_ANSWER, _too_long) as progress, _no_log():
             for k in range(len(self._walk.time)):
                 why = self._step(k)
                 if why:
@@ -174,7 +181,7 @@ class Loop:
             tau = self._controller(time, self._joints.measured(self._q), self._dq.copy(), now)
         except ExoPinError:
             raise
-        except Exception as error:  # whatever a user's code raises
+        except (Exception, SystemExit) as error:  # whatever a user's code raises
             raise DescriptionError(f"the controller fails at {time:.3f} s: {raised_where(error)}") from error
         try:
             answer = as_floats(tau)

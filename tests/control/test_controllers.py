@@ -88,16 +88,47 @@ def test_a_class_of_a_file_is_a_controller(tmp_path, robot, gait):
         ("raise SystemExit\n", "", FormatError, "SystemExit"),
         (FILE, ":Sotf", UnknownNameError, "Soft"),
         (FILE + "class Other:\n    pass\n", "", DescriptionError, "name one"),
+        ("", ":Soft", DescriptionError, "neither"),
+        ("while True:\n    pass\n", "", FormatError, "does not end"),
+        (
+            "class Slow:\n    def __init__(self):\n        while True:\n            pass\n",
+            "",
+            FormatError,
+            "does not end",
+        ),
+        ("class Gain:\n    def __init__(self, gain):\n        pass\n", "", FormatError, "gain"),
         ("class Dumb:\n    pass\n", ":Dumb", DescriptionError, "called"),
         ("class Bad:\n    def __init__(self):\n        1 / 0\n", ":Bad", FormatError, "bad.py:3"),
     ],
 )
-def test_a_file_that_holds_no_controller_is_refused(tmp_path, content, name, error, word):
+def test_a_file_that_holds_no_controller_is_refused(tmp_path, content, name, error, word, monkeypatch):
+    monkeypatch.setattr("exo_pin.control.users_code.LONGEST_START", 0.2)
     path = tmp_path / "bad.py"
     if content is not None:
         path.write_text(content)
     with pytest.raises(error, match=word):
         load_controller(f"{path}{name}")
+
+
+def failing(robot, gait):
+    raise ValueError("no model")
+
+
+def endless(robot, gait):
+    while True:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("start", "word"),
+    [(failing, r"test_controllers.py:\d+: ValueError: no model"), (endless, "does not end")],
+)
+def test_a_reset_that_fails_is_refused(robot, gait, start, word, monkeypatch):
+    monkeypatch.setattr("exo_pin.control.users_code.LONGEST_START", 0.2)
+    controller = find_controller("pd")[1]
+    monkeypatch.setattr(controller, "reset", start, raising=False)
+    with pytest.raises(DescriptionError, match=word):
+        reset(controller, robot, gait)
 
 
 def test_a_controller_that_does_not_exist_is_refused_with_those_that_do():

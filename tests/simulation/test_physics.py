@@ -8,12 +8,13 @@ import pinocchio as pin
 import pytest
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.gait import Gait, normative_gait
-from exo_pin.physics import GRAVITY
+from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.simulation import Floor, PelvisSupport, mujoco_model, mujoco_spec, simulate
 from exo_pin.simulation.engine_forces import SOLES
-from exo_pin.simulation.mujoco_model import ARMATURE
+from exo_pin.simulation.mujoco_model import ARMATURE, FLOOR
+from exo_pin.simulation.reference_motion import ReferenceMotion
+from exo_pin.simulation.support_force import SupportForce
 from exo_pin.simulation.witness import with_rotors
 
 FREQUENCY = 0.005
@@ -48,7 +49,7 @@ def test_a_hanging_leg_has_its_pendulum_s_period(floating):
     for joint in list(spec.joints):
         if joint.name != fixed.joints[k]:
             spec.delete(joint)
-    spec.delete(spec.geom("floor"))
+    spec.delete(spec.geom(FLOOR))
     model = spec.compile()
     engine = mujoco.MjData(model)
     engine.qpos[:] = q[k] + 1e-3
@@ -59,18 +60,37 @@ def test_a_hanging_leg_has_its_pendulum_s_period(floating):
     assert oscillations(np.array(swing)) == pytest.approx(frequency, rel=FREQUENCY)
 
 
-def test_a_body_on_the_support_has_its_frequency(floating):
-    """Stiff joints, no floor in reach: the pelvis bounces on the vertical spring of the support."""
-    still = Gait(np.arange(2), np.zeros((2, 12)))
-    gait = dataclasses.replace(still, time=np.array([0.0, 4.0]), base=np.tile(np.eye(4) + 0.0, (2, 1, 1)))
-    base = gait.base.copy()
-    base[:, 2, 3] = 3.0
-    spring = PelvisSupport("spring", (2e4, 2e4, 2e4, 4e3, 4e3, 4e3), (2e3, 2e3, 0.0, 4e2, 4e2, 4e2))
-    run = simulate(load_robot(), dataclasses.replace(gait, base=base), "pd_gravity", support=spring)
-    mass = run.weight / GRAVITY
-    alone = np.sqrt(2e4 / mass) / (2 * np.pi)
-    height = run.base[:, 2, 3]
-    assert oscillations(height - height.mean()) == pytest.approx(alone, rel=0.02)
+def test_a_mass_on_the_support_has_its_frequency(floating):
+    """Rigid legs, no floor, the other directions held: the robot bounces on the vertical spring."""
+    stiffness, steps = 2e4, 2000
+    spec = mujoco_spec(floating)
+    for joint in list(spec.joints):
+        if joint.type != mujoco.mjtJoint.mjJNT_FREE:
+            spec.delete(joint)
+    spec.delete(spec.geom(FLOOR))
+    model = spec.compile()
+    engine = mujoco.MjData(model)
+    spring = PelvisSupport("spring", (1e6, 1e6, stiffness, *[1e6] * 3), (1e4, 1e4, 0.0, *[1e3] * 3))
+    zeros = np.zeros((steps, len(JOINTS)))
+    walk = ReferenceMotion(
+        time=np.arange(steps) * 1e-3,
+        phase=zeros[:, 0],
+        q=zeros,
+        dq=zeros,
+        ddq=zeros,
+        torque=zeros,
+        base=np.tile(np.eye(4), (steps, 1, 1)),
+        base_velocity=zeros[:, :6],
+        belt_speed=0.0,
+    )
+    support = SupportForce(spring, walk, 0.0, np.zeros((steps, 2)))
+    height = []
+    for k in range(steps):
+        height.append(engine.qpos[2])
+        engine.qfrc_applied[:] = support.at(k, engine.qpos.tolist(), engine.qvel.tolist())[1]
+        mujoco.mj_step(model, engine)
+    alone = np.sqrt(stiffness / pin.computeTotalMass(floating.model)) / (2 * np.pi)
+    assert oscillations(np.array(height) - np.mean(height)) == pytest.approx(alone, rel=FREQUENCY)
 
 
 def test_the_model_is_the_urdf_s(floating):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin.anatomy import JOINTS
-from exo_pin.control import Patient
+from exo_pin.control import Patient, find_controller
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import load_robot
@@ -197,9 +197,16 @@ def wrong():
     raise ValueError("no idea")
 
 
+def leaving():
+    raise SystemExit(0)
+
+
 def forever():
     while True:
-        pass
+        try:
+            continue
+        except Exception:
+            continue
 
 
 @pytest.mark.parametrize(
@@ -207,16 +214,38 @@ def forever():
     [
         (np.full(12, np.nan), "finite"),
         (np.zeros(11), "12 finite"),
-        ("torque", "12 finite"),
+        (np.zeros(12) * 1j, "12 finite"),
+        (["1"] * 12, "12 finite"),
         (None, "12 finite"),
         (wrong, r"test_simulate.py:\d+: ValueError: no idea"),
+        (leaving, "SystemExit"),
         (forever, "does not answer"),
     ],
 )
 def test_a_controller_whose_answer_cannot_be_used_is_refused(exo, answer, word, monkeypatch):
-    monkeypatch.setattr("exo_pin.simulation.time_limit.LONGEST_ANSWER", 0.3)
+    monkeypatch.setattr("exo_pin.simulation.loop.LONGEST_ANSWER", 0.3)
     with pytest.raises(DescriptionError, match=word):
         simulate(exo, normative_gait(), Answer(answer), cycles=1)
+
+
+class Changing:
+    """The servo alone, which changes all that it is given and answers with a list."""
+
+    def __call__(self, time, q, dq, reference):
+        answer = find_controller("pd_only")[1](time, q, dq, reference).tolist()
+        for values in (q, dq, reference.q, reference.dq, reference.ddq, reference.missing):
+            values += 1.0
+        reference.q = None
+        return answer
+
+
+def test_a_controller_that_changes_what_it_is_given_changes_its_answer_alone(exo):
+    gait = normative_gait("slow")
+    kept, changed = (
+        simulate(exo, gait, name, patient="healthy", cycles=1) for name in ("pd_only", Changing())
+    )
+    np.testing.assert_array_equal(kept.q, changed.q)
+    np.testing.assert_array_equal(kept.reference.q, changed.reference.q)
 
 
 @pytest.mark.parametrize(
