@@ -176,7 +176,8 @@ def spikes(time: ArrayLike, y: ArrayLike, *, factor: float = _OUTLIER_FACTOR, le
     for curve, found in zip(curves, flat, strict=True):  # one at a time: a long recording's are large
         away = curve[2:-2] - sum(w * curve[_shifted(lag)] for lag, w in weights.items())
         size = np.abs(away)
-        highest = np.lib.stride_tricks.sliding_window_view(np.pad(size, 2), 5).max(axis=-1)
+        around = np.pad(size, 2)
+        highest = np.maximum.reduce([around[k : k + len(size)] for k in range(5)])
         beyond = max(factor * 1.4826 * float(np.median(size)), least, _ROUNDING)
         found[2:-2] = np.where((size > beyond) & (size == highest), away, 0.0)
     return off

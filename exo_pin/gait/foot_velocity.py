@@ -94,4 +94,4 @@ def vertex(time: Array, y: Array, i: int) -> float:
     bend = (right - left) / (after - before)
     if bend >= 0:  # a plateau
         return float(time[i])
-    return float(time[i] + np.clip((before - left / bend) / 2, before / 2, after / 2))
+    return float(time[i] + min(max((before - left / bend) / 2, before / 2), after / 2))

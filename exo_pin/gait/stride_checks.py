@@ -10,7 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 from exo_pin.gait.event import EVENT_KINDS, FOOT_FLAT, Event, between
 
 _LEAST_STEP = 0.15
@@ -37,6 +37,13 @@ _EARLY_TOE_OFF = 0.2
 
 LONGEST_FLIGHT = 0.45
 """The same in runs: a sprinter flies for 0.25 of the stride."""
+
+
+IN_THE_AIR = "the feet are furthest ahead in the air, not on the ground: marching on the spot, or cycling?"
+_HIGH_STANCE = "the feet are higher in stance than in swing"
+_UP_AND_DOWN = "the feet go up and down where they should rest on the ground: cycling?"
+_ON_THE_SPOT = f"the feet do not get along: stepping on the spot; strides of less than {_SHORTEST_STRIDE:g} m"
+"""Objections to a stride in its path."""
 
 
 class Feet(NamedTuple):
@@ -101,9 +108,10 @@ def candidate_strides(
         offs = between(mine["toe_off"], a, b)
         why = "heel strikes and toe-offs of one foot do not take turns" if len(offs) != 1 else ""
         why = why or _order_objection(other, a, b, early)
-        why = why or _path_objection(feet, first, SIDES.index(side), (a, offs[0], b))
         found.append(CandidateStride(side, a, offs[0] if offs else a, b, why))
-    return found
+    in_order = [stride for stride in found if not stride.why]
+    whys = iter(_path_objections(feet, first, SIDES.index(side), in_order))
+    return [stride if stride.why else stride._replace(why=next(whys)) for stride in found]
 
 
 def consistent(candidates: list[CandidateStride]) -> list[CandidateStride]:
@@ -136,53 +144,57 @@ def _order_objection(other: Mapping[str, Sequence[float]], a: float, b: float, e
     return ""
 
 
-def _path_objection(feet: Feet, first: Array, k: int, moments: tuple[float, float, float]) -> str:
-    """The objection in the path of foot k to a stride with these strike, toe-off and next strike [s]."""
-    strike, off, end = moments
-    begin, stop = np.searchsorted(feet.time, [strike, end])
-    rows = slice(max(begin - 1, 0), stop + 1)  # long recordings have thousands of strides
-    first, feet = first[rows], Feet(*(part[rows] for part in feet))
-    high = strike_in_the_air(feet, first[:, k, 2], strike, off, end)
-    if high:
-        return high
+def _path_objections(feet: Feet, first: Array, k: int, strides: Sequence[CandidateStride]) -> list[str]:
+    """The objection in the path of foot k to each stride; empty for none."""
+    strike, off, end = np.array([(x.strike, x.off, x.end) for x in strides]).reshape(-1, 3).T
+    flat, lift_off = (strike + part * (off - strike) for part in FOOT_FLAT)
     sole = np.minimum(feet.heel[:, k, 2], feet.toe[:, k, 2])
-    stance, swing = (_mean(feet.time, sole, a, b) for a, b in ((strike, off), (off, end)))
-    if stance > swing + _STANCE_ABOVE_SWING:
-        return "the feet are higher in stance than in swing"
-    a, b = (strike + part * (off - strike) for part in FOOT_FLAT)
-    resting = np.interp(np.linspace(a, b, 20), feet.time, sole)
-    if np.ptp(resting) > _FLAT_RANGE:
-        return "the feet go up and down where they should rest on the ground: cycling?"
-    path = np.stack(
-        [np.interp([strike, end, a, b], feet.time, first[:, k, axis]) for axis in range(2)], axis=1
+    stance, swing, resting = (
+        _along(feet.time, sole, *span) for span in ((strike, off), (off, end), (flat, lift_off))
     )
-    ground = (path[3] - path[2]) / (b - a)
-    length = float(np.linalg.norm(path[1] - path[0] - ground * (end - strike)))
-    if length < _SHORTEST_STRIDE:
-        return f"the feet do not get along: stepping on the spot; strides of less than {_SHORTEST_STRIDE:g} m"
-    return ""
+    places = [
+        np.array([np.interp(t, feet.time, first[:, k, axis]) for axis in range(2)])
+        for t in (strike, end, flat, lift_off)
+    ]
+    objections = (
+        (IN_THE_AIR, strikes_in_the_air(feet.time, first[:, k, 2], strike, off, end)),
+        (_HIGH_STANCE, stance.mean(axis=0) > swing.mean(axis=0) + _STANCE_ABOVE_SWING),
+        (_UP_AND_DOWN, np.ptp(resting, axis=0) > _FLAT_RANGE),
+        (_ON_THE_SPOT, _lengths(places, (end - strike) / (lift_off - flat)) < _SHORTEST_STRIDE),
+    )
+    return [next((why for why, holds in objections if holds[i]), "") for i in range(len(strides))]
 
 
-def strike_in_the_air(feet: Feet, height: Array, strike: float, off: float, end: float) -> str:
-    """The objection to a strike at which the foot is too high to meet the ground; empty for none.
+def _lengths(places: Sequence[Array], times: Array) -> Array:
+    """Lengths `(m,)` of strides over the ground, which moves as the resting foot does [m].
 
     Args:
-        feet: The motion, n samples.
-        height: `(n,)` of the part of the foot that lands first [m].
-        strike: Heel strike [s].
-        off: Toe-off [s].
-        end: End of the swing [s].
+        places: Of the foot at its strike, its next one, and from where to where it rests, `(2, m)` each [m].
+        times: `(m,)` how often the rest would fit into the stride.
     """
-    rest = _mean(feet.time, height, *(strike + part * (off - strike) for part in FOOT_FLAT))
-    swing = height[(feet.time >= off) & (feet.time <= end)]
-    lift = float(swing.max()) - rest if len(swing) else 0.0
-    above = float(np.interp(strike, feet.time, height)) - rest
-    if above <= _STRIKE_HEIGHT[0] * max(lift, 0.0) + _STRIKE_HEIGHT[1]:
-        return ""
-    return "the feet are furthest ahead in the air, not on the ground: marching on the spot, or cycling?"
+    strike, end, flat, lift_off = places
+    return np.asarray(np.linalg.norm(end - strike - (lift_off - flat) * times, axis=0))
 
 
-def _mean(time: Array, y: Array, start: float, end: float) -> float:
-    """Mean of a curve over a span of time."""
-    t = np.linspace(start, end, 20)
-    return float(np.interp(t, time, y).mean())
+def strikes_in_the_air(time: Array, height: Array, strike: Array, off: Array, end: Array) -> Mask:
+    """Whether a foot is too high to meet the ground at each of m strikes, `(m,)`.
+
+    Args:
+        time: `(n,)` [s].
+        height: `(n,)` of the part of the foot that lands first [m].
+        strike: `(m,)` heel strikes [s].
+        off: `(m,)` toe-offs [s].
+        end: `(m,)` ends of the swings [s].
+    """
+    a, b = (strike + part * (off - strike) for part in FOOT_FLAT)
+    rest = _along(time, height, a, b).mean(axis=0)
+    rows = zip(np.searchsorted(time, off), np.searchsorted(time, end, side="right"), strict=True)
+    highest = np.array([height[i:j].max(initial=-np.inf) for i, j in rows])
+    lift = np.maximum(highest - rest, 0.0)
+    above = np.interp(strike, time, height) - rest
+    return np.asarray(above > _STRIKE_HEIGHT[0] * lift + _STRIKE_HEIGHT[1])
+
+
+def _along(time: Array, y: Array, start: Array, end: Array) -> Array:
+    """Values `(20, m)` of a curve over m spans of time."""
+    return np.asarray(np.interp(np.linspace(start, end, 20), time, y))

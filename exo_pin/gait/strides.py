@@ -151,6 +151,20 @@ def _still(gait: Gait, usual: float) -> Array:
     if width > len(q) or width < 2:
         return np.empty(0)
     low, high = np.percentile(q, [0.5, 99.5], axis=0)  # a single bad sample must not set the scale
-    windows = np.lib.stride_tricks.sliding_window_view(q, width, axis=0)  # (m, 4, width)
-    rests = (np.ptp(windows, axis=2) <= _STANDING_RANGE * (high - low)).all(axis=1)
+    rests = (_ranges(q, width) <= _STANDING_RANGE * (high - low)).all(axis=1)
     return np.asarray(gait.time[np.flatnonzero(rests) + width // 2])
+
+
+def _ranges(y: Array, width: int) -> Array:
+    """Largest less smallest value of each window of `width` samples of curves `(n, k)`, `(n - width + 1, k)`.
+
+    Windows of twice the size are made of two, so that a long one costs little more than a short one.
+    """
+    highest = lowest = y
+    size = 1
+    while size < width:
+        step = min(size, width - size)
+        highest = np.maximum(highest[:-step], highest[step:])
+        lowest = np.minimum(lowest[:-step], lowest[step:])
+        size += step
+    return highest - lowest

@@ -44,12 +44,12 @@ def _clearances(time: Array, height: Array, events: Sequence[Event], side: Side)
     levels = [float(part.mean()) for part in resting if len(part) and np.isfinite(part).all()]
     if not levels:
         return []
-    values = []
+    values, level = [], float(np.mean(levels))
     for off, strike in pairwise(event for event in events if event.side == side):
         if (off.kind, strike.kind) != ("toe_off", "heel_strike"):
             continue
         a, b = (off.time + part * (strike.time - off.time) for part in MID_SWING)
         middle = height[rows_within(time, a, b)]
         if len(middle) and np.isfinite(middle).all():
-            values.append(float(middle.min()) - float(np.mean(levels)))
+            values.append(float(middle.min()) - level)
     return values

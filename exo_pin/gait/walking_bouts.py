@@ -16,12 +16,13 @@ from exo_pin.gait.event import SAME_TIME, Event
 from exo_pin.gait.foot_velocity import at_largest_fall
 from exo_pin.gait.running_method import Runner, looks_like_a_run, running_events
 from exo_pin.gait.stride_checks import (
+    IN_THE_AIR,
     LONGEST_FLIGHT,
     CandidateStride,
     Feet,
     candidate_strides,
     consistent,
-    strike_in_the_air,
+    strikes_in_the_air,
 )
 from exo_pin.gait.zeni_method import ZENI, candidates, check_apart, check_turns
 
@@ -124,9 +125,8 @@ def _one_way(feet: Feet, backwards: bool) -> tuple[tuple[Event, ...], int, str]:
     """Events of a walk forward, or backwards; its number of strides; the reason where there are none."""
     first, last = (feet.toe, feet.heel) if backwards else (feet.heel, feet.toe)  # to land, to leave
     sign = -1 if backwards else 1
-    events = candidates(feet.time, sign * feet.ahead(first), sign * feet.ahead(last))
-    if backwards:
-        events = [dataclasses.replace(event, source=f"{ZENI}, walking backwards") for event in events]
+    source = f"{ZENI}, walking backwards" if backwards else ZENI
+    events = candidates(feet.time, sign * feet.ahead(first), sign * feet.ahead(last), source=source)
     strides = consistent(
         [stride for side in SIDES for stride in candidate_strides(feet, first, events, side)]
     )
@@ -145,12 +145,9 @@ def _too_short(feet: Feet, first: Array, events: list[Event]) -> tuple[Event, ..
     check_turns(events)
     for k, side in enumerate(SIDES):
         mine = [event for event in events if event.side == side]
-        for strike, off in pairwise(mine):
-            if strike.kind != "heel_strike":
-                continue
-            high = strike_in_the_air(feet, first[:, k, 2], strike.time, off.time, float(feet.time[-1]))
-            if high:
-                raise GaitError(f"no gait cycles found: {high}")
+        moments = [(a.time, b.time, feet.time[-1]) for a, b in pairwise(mine) if a.kind == "heel_strike"]
+        if strikes_in_the_air(feet.time, first[:, k, 2], *np.array(moments).reshape(-1, 3).T).any():
+            raise GaitError(f"no gait cycles found: {IN_THE_AIR}")
     return tuple(events)
 
 

@@ -78,6 +78,7 @@ def candidates(
     *,
     periodic: bool = False,
     smallest_excursion: float = _SMALLEST_EXCURSION,
+    source: str = ZENI,
 ) -> list[Event]:
     """The extremes of each foot's motion as events sorted by time, walk or not.
 
@@ -87,6 +88,7 @@ def candidates(
         toe_forward: `(n, 2)` toes likewise.
         periodic: The samples are one or more cycles [0, T) of a walk that repeats.
         smallest_excursion: A foot that moves less to and fro is standing [m].
+        source: Of the events.
 
     Raises:
         GaitError: A foot hardly moves, or unusable arrays.
@@ -103,7 +105,9 @@ def candidates(
         if curve.shape != (len(t), 2) or not np.isfinite(curve).all():
             raise GaitError(f"{kind}: expected finite positions ({len(t)}, 2) [m], left and right")
         for side, y in zip(SIDES, curve.T, strict=True):
-            events += [Event(x, kind, side, ZENI) for x in _maxima(t, y, side, periodic, smallest_excursion)]
+            events += [
+                Event(x, kind, side, source) for x in _maxima(t, y, side, periodic, smallest_excursion)
+            ]
     return sorted(events, key=lambda event: event.time)
 
 

@@ -103,15 +103,16 @@ def walk_numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> W
     """
     try:
         gait = with_events(robot, gait)
-        how, estimate = manner(gait), walk_estimate(gait)
-        numbers = _known(gait, how, _on_the_model(robot, gait, estimate))
+        how, estimate, walk = manner(gait), walk_estimate(gait), unrolled(gait)
+        soles = sole_points(robot, walk)
+        numbers = _known(gait, how, _numbers(gait, estimate, walk.time, soles[:, :, 0]))
     except GaitError as error:
         return WalkNumbers(missing=str(error))
     seen = {name: (number, ON_THE_MODEL) for name, number in numbers.items() if _is_length(number)}
     if feet is not None:
         seen |= _at_markers(gait, estimate, feet)
     if how == "walk":
-        seen |= _clearances(robot, gait, feet)
+        seen |= _clearances(gait, soles[: len(gait), :, 1], feet)
     found = WalkNumbers(
         strides=strides_of_both(gait),
         numbers=numbers | {name: number for name, (number, _) in seen.items()},
@@ -142,7 +143,9 @@ def spatiotemporal(robot: Robot, gait: Gait) -> dict[str, Number]:
         GaitError: There are no gait cycles, and no stride can be estimated.
     """
     gait = with_events(robot, gait)
-    return _known(gait, manner(gait), _on_the_model(robot, gait, walk_estimate(gait)))
+    walk = unrolled(gait)
+    heels = sole_points(robot, walk)[:, :, 0]
+    return _known(gait, manner(gait), _numbers(gait, walk_estimate(gait), walk.time, heels))
 
 
 def walking_speed(robot: Robot, gait: Gait) -> float:
@@ -164,11 +167,6 @@ def _known(gait: Gait, how: Manner, numbers: dict[str, Number]) -> dict[str, Num
 def _is_length(number: Number) -> bool:
     """Whether it depends on where on the foot it is measured."""
     return number.unit in ("m", "m/s")
-
-
-def _on_the_model(robot: Robot, gait: Gait, estimate: StrideEstimate | None) -> dict[str, Number]:
-    walk = unrolled(gait)
-    return _numbers(gait, estimate, walk.time, sole_points(robot, walk)[:, :, 0])
 
 
 def _numbers(gait: Gait, estimate: StrideEstimate | None, time: Array, heels: Array) -> dict[str, Number]:
@@ -199,14 +197,18 @@ def _at_markers(
     }
 
 
-def _clearances(robot: Robot, gait: Gait, feet: FootMarkers | None) -> dict[str, tuple[Number, str]]:
+def _clearances(gait: Gait, balls: Array, feet: FootMarkers | None) -> dict[str, tuple[Number, str]]:
     """Clearances of the toes, and where each was measured: at their markers, else at the model's balls.
 
     The model has none where the pelvis's height was not recorded.
+
+    Args:
+        gait: The walk, with events.
+        balls: `(n, 2, 3)` balls of the model's feet [m].
+        feet: Heel and toe markers of its trial.
     """
     found = {}
     if recorded_height(gait) is not None:
-        balls = sole_points(robot, gait)[:, :, 1]
         found = {
             x: (number, ON_THE_MODEL) for x, number in toe_clearances(gait.time, balls, gait.events).items()
         }
