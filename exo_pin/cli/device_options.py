@@ -77,12 +77,25 @@ def motion(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Robot, Gai
     device = devices.find(args.device)
     pelvis = args.pelvis or pelvis_by_default(device)
     robot = load_robot(body, device=device.carried())  # the walk itself has the place of the pelvis
-    if not device.locked and pelvis == "recorded":
+    if not changes_motion(args):
         return robot, gait
     conditions = Conditions(pelvis)
     copy = projected(walk(gait, body), robot_for(device, body, conditions), conditions).gait
     print(f"note: {_copied(device.title or device.name, pelvis)}", file=sys.stderr)
     return robot, copy
+
+
+def changes_motion(args: argparse.Namespace) -> bool:
+    """Whether the device cannot copy a walk whole: it locks joints, or holds the pelvis.
+
+    Args:
+        args: The command line, with the arguments of `add_device`.
+    """
+    from exo_pin import devices
+    from exo_pin.feasible import pelvis_by_default
+
+    device = devices.find(args.device)
+    return bool(device.locked) or (args.pelvis or pelvis_by_default(device)) == "device"
 
 
 def _copied(device: str, pelvis: PelvisMotion) -> str:

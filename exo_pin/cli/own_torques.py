@@ -15,13 +15,23 @@ if TYPE_CHECKING:
     from exo_pin.robot import Robot
 
 
-def inverse_dynamics(args: argparse.Namespace, robot: Robot, walk: Gait, **options: Any) -> Dynamics:
+_NOT_OF_THIS_MOTION = (
+    "the force plates measured the recorded motion, which the device changes: their forces are not used, the "
+    "ground reaction is predicted"
+)
+
+
+def inverse_dynamics(
+    args: argparse.Namespace, robot: Robot, walk: Gait, *, changed: bool = False, **options: Any
+) -> Dynamics:
     """The torques of a walk; remarks on them go to stderr.
 
     Args:
         args: The command line, with the arguments of `plate_options.add`.
         robot: Who walks.
         walk: The walk, with its events.
+        changed: Whether it is not the motion that was recorded: force plates did not measure it, and are not
+            used.
         options: Of `exo_pin.dynamics.torques`.
 
     Raises:
@@ -31,6 +41,9 @@ def inverse_dynamics(args: argparse.Namespace, robot: Robot, walk: Gait, **optio
     from exo_pin import dynamics
 
     plates = plate_options.measured(args)
+    if changed and plates:
+        plates = ()
+        print(f"note: {_NOT_OF_THIS_MOTION}", file=sys.stderr)
     try:
         found = dynamics.torques(robot, walk, forces=plates, **options)
     except FormatError:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from exo_pin.anatomy.names import SignPreset
+from exo_pin.cli import device_options
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -130,8 +131,7 @@ def _beside(path: Path) -> _Beside:
 
 def _of_opensim(args: argparse.Namespace) -> bool:
     """Whether the walk's own file holds the motion that the torques are of, in OpenSim's coordinates."""
-    own = args.device == "exo12" and args.pelvis != "device"
-    return own and Path(args.gait).suffix.lower() in _OPENSIM
+    return Path(args.gait).suffix.lower() in _OPENSIM and not device_options.changes_motion(args)
 
 
 def _preset(args: argparse.Namespace) -> SignPreset:

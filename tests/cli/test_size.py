@@ -58,3 +58,17 @@ def test_bad_input_is_one_line(capsys, words, why):
     err = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("note:")]
     assert len(err) == 1
     assert why in err[0]
+
+
+@pytest.mark.parametrize("command", ["size", "torques"])
+def test_forces_of_plates_are_not_said_to_be_those_of_a_motion_that_the_device_changes(
+    capsys, shared, command
+):
+    folder = shared / "opensim_subject01_walk"
+    files = [folder / f"subject01_{name}" for name in ("walk1_ik.mot", "simbody.osim", "walk1_grf.mot")]
+    words = [str(files[0]), "--model", str(files[1]), "--forces", str(files[2]), "--json"]
+    for more, reaction in ((["--pelvis", "device"], "predicted"), ([], "measured")):
+        assert main([command, *words, *more]) in (0, 1)
+        out, err = capsys.readouterr()
+        assert json.loads(out)["ground_reaction"] == reaction
+        assert ("their forces are not used" in err) == (reaction == "predicted")

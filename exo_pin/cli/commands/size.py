@@ -95,7 +95,8 @@ def _run_walk(args: argparse.Namespace, motor: Motor | None, ratio: float | None
     walk = options.gait_from(args, body)
     robot, walk = device_options.motion(args, body, walk)
     walk, _ = options.with_events(robot, walk)
-    known = own_torques.inverse_dynamics(args, robot, walk, body_weight_support=args.bws)
+    changed = device_options.changes_motion(args)
+    known = own_torques.inverse_dynamics(args, robot, walk, changed=changed, body_weight_support=args.bws)
     found = sizing.size(known, stride=sizing.stride_time(robot, walk), motor=motor, ratio=ratio)
     for remark in found.remarks[len(known.remarks) :]:
         print(f"note: {show.plain(remark)}", file=sys.stderr)

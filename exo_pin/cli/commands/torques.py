@@ -73,7 +73,9 @@ def run(args: argparse.Namespace) -> int:
     walk = options.gait_from(args, body)
     robot, walk = device_options.motion(args, body, walk)
     walk, _ = options.with_events(robot, walk)
-    found = own_torques.inverse_dynamics(args, robot, walk, body_weight_support=args.bws, masses=args.masses)
+    how = {"body_weight_support": args.bws, "masses": args.masses}
+    changed = device_options.changes_motion(args)
+    found = own_torques.inverse_dynamics(args, robot, walk, changed=changed, **how)
     shared = walk_torques(found, walk, patient, args.assist)
     if args.json:
         show.as_json(shared.facts() | (_curves(shared) if args.curves else {}))
