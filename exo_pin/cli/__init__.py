@@ -41,6 +41,7 @@ COMMANDS = {
     "retarget": "a walk as joint angles of a humanoid",
     "torques": "what every joint of a walk bears: inverse dynamics, shared by motors and person",
     "feasible": "whether a device can do a walk with a person",
+    "plan": "footsteps become a walk from rest to rest that nothing has to hold",
     "simulate": "the exoskeleton walks by torques: verdict, motors, the patient's part",
     "size": "which motor and gear bear a walk, and the worst over bodies and speeds",
     "doctor": "what is installed here, what is missing, and the cure",

@@ -108,8 +108,8 @@ def check_reach(
     else:
         why = f"needs {joint} {math.degrees(tight.angle):.1f} deg, of {lower:g} to {upper:g}"
     raise GaitError(
-        f"{step_words(walk, plan, tight.sample)} {why}, {1e3 * tight.height:.0f} mm high being the best "
-        f"height of the hips; {_largest(walk, least, room)}"
+        f"{step_words(walk, plan, tight.sample)} {why}, with the hips at their best height, "
+        f"{tight.height:.3f} m; {_largest(walk, least, room)}"
     )
 
 

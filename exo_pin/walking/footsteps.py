@@ -20,6 +20,7 @@ MOST_STEPS = 1000
 """Of one plan: a quarter of an hour; more is a slip of the hand."""
 
 _FURTHEST = 1000.0  # from the start of a walk [m]
+_MOST_TURN = 45.0  # of a step [deg]
 _OTHER: dict[Side, Side] = {"left": "right", "right": "left"}
 
 
@@ -87,6 +88,13 @@ class Footsteps:
                 raise GaitError(
                     f"steps {k} and {k + 1} are both of the {after.side} foot; left and right take turns"
                 )
+
+    @property
+    def words(self) -> str:
+        """How many steps, how long and how quick, in words."""
+        ahead = np.abs(self.relative()[:, 0]).max()
+        n = len(self.steps)
+        return f"{n} step{'s' * (n > 1)} of up to {ahead:.2f} m, {self.step_time:.3g} s each"
 
     def stances(self) -> tuple[Footstep, ...]:
         """Where the other foot stands during each step."""
@@ -156,7 +164,8 @@ def footsteps(
     """
     n = count("number of steps", steps, 1, MOST_STEPS - 1, error=GaitError)
     length = _within("step length", length, 2.0)
-    turn = _within("turn of a step [rad]", turn, math.pi / 4)
+    degrees = round(math.degrees(number("turn", turn, error=GaitError)), 9)
+    turn = math.radians(_within("turn of a step [deg]", degrees, _MOST_TURN))
     across = Body.from_stature().hip_width if width is None else width
     across = number("step width", across, above=0.0, most=1.0, error=GaitError)
     side: Side = word("side", start, SIDES)

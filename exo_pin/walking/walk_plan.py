@@ -6,6 +6,7 @@ import math
 import time
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -110,6 +111,28 @@ class Plan:
         return tuple(found)
 
     @property
+    def words(self) -> str:
+        """The steps, in words."""
+        return self.footsteps.words
+
+    def facts(self) -> dict[str, Any]:
+        """Plain values for JSON; units as the keys say, limits in degrees as `exo-pin check` has them."""
+        forward, sideways = self.zmp_rms
+        return {
+            "frames": len(self.gait),
+            "missed_frames": self.missed_frames,
+            "duration_s": self.gait.duration,
+            "steps": len(self.footsteps.steps),
+            "zmp_rms_mm": {"forward": 1e3 * forward, "sideways": 1e3 * sideways},
+            "polygon_margin_min_mm": 1e3 * float(self.margins.min()),
+            "pelvis_height_m": self.pelvis_height,
+            "generation_s": self.generation_time,
+            "limits": {demand.joint: _limit_facts(demand) for demand in self.demands},
+            "ok": self.ok,
+            "reasons": list(self.reasons),
+        }
+
+    @property
     def ok(self) -> bool:
         """Whether every joint keeps its limits and the ZMP stays inside the soles."""
         return not self.reasons
@@ -161,7 +184,7 @@ def plan_walk(
     plan = course(walk, sole, rate=rate, **style)
     body = filtered(robot, floating, plan, _pelvis(robot, plan, tight.height), rest=rest, passes=passes)
     _check_met(walk, plan, body)
-    gait = replace(body.gait, source=_source(walk))
+    gait = replace(body.gait, source=f"planned walk: {walk.words}")
     taken = time.process_time() - started
     return Plan(robot, floating, walk, plan, gait, body.zmp, tight.height, body, taken)
 
@@ -190,8 +213,15 @@ def _check_met(walk: Footsteps, plan: Course, body: WholeBody) -> None:
         )
 
 
-def _source(walk: Footsteps) -> str:
-    return f"planned walk: {len(walk.steps)} steps of {walk.step_time:g} s"
+def _limit_facts(demand: JointDemand) -> dict[str, Any]:
+    """Range, speed and torque of a joint; the first three keys as in `exo-pin check`."""
+    return {
+        "min": math.degrees(demand.position.lowest),
+        "max": math.degrees(demand.position.highest),
+        "violated_frames": demand.position.samples_outside,
+        "peak_deg_s": math.degrees(demand.speed.peak),
+        "peak_Nm": None if demand.torque is None else demand.torque.peak,
+    }
 
 
 def _exceeded(demand: JointDemand) -> str:
