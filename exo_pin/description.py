@@ -22,7 +22,11 @@ from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.safe import plain_numbers
 
-_MAIN = "exo12.urdf.xacro"
+MAIN = "exo12.urdf.xacro"
+"""The xacro that includes the others."""
+XACRO = "http://www.ros.org/wiki/xacro"
+"""The namespace of xacro's elements."""
+
 _SIZES = [
     "hip_width",
     "waist_width",
@@ -48,9 +52,9 @@ def sources() -> Path:
     """The folder of the xacro sources: inside the installed package, or beside it in a checkout."""
     package = Path(__file__).resolve().parent
     for folder in (package / "urdf", package.parent / "urdf"):
-        if (folder / _MAIN).is_file():
+        if (folder / MAIN).is_file():
             return folder
-    raise DescriptionError(f"the xacro sources ({_MAIN}) are missing beside {package}; reinstall exo_pin")
+    raise DescriptionError(f"the xacro sources ({MAIN}) are missing beside {package}; reinstall exo_pin")
 
 
 def arguments(
@@ -89,6 +93,18 @@ def arguments(
     _check_limits(values, overrides)
     _check_inertias(values)
     return values
+
+
+def arguments_xacro(values: Mapping[str, str], comment: str) -> str:
+    """The arguments as a xacro file whose defaults they are, in place of urdf/arguments.xacro.
+
+    Args:
+        values: Of `arguments`.
+        comment: The comment above them.
+    """
+    rows = (f'  <xacro:arg name="{name}" default="{value}"/>\n' for name, value in values.items())
+    head = f'<?xml version="1.0"?>\n<!-- {comment} -->\n<robot xmlns:xacro="{XACRO}">\n'
+    return f"{head}{''.join(rows)}</robot>\n"
 
 
 def urdf(
@@ -148,9 +164,9 @@ def _by_xacro(values: Mapping[str, str], name: str) -> str:
     noise = io.StringIO()  # xacro reports its errors on stderr before it raises
     try:
         with contextlib.redirect_stderr(noise):
-            document = xacro.process_file(str(sources() / _MAIN), mappings=dict(values))
+            document = xacro.process_file(str(sources() / MAIN), mappings=dict(values))
     except Exception as error:  # xacro lets ZeroDivisionError, XMLSyntaxError and others pass
-        raise DescriptionError(f"xacro cannot expand {_MAIN}: {error}") from error
+        raise DescriptionError(f"xacro cannot expand {MAIN}: {error}") from error
     element = document.documentElement  # not the document, whose banner holds a local path
     element.setAttribute("name", name)  # xacro reads it before it knows the arguments
     text: str = element.toprettyxml(indent="  ")

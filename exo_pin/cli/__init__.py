@@ -34,6 +34,7 @@ COMMANDS = {
     "edit": "adjust a walk: time, amplitude, stride, clearance, sides, ramps, smoothing",
     "body": "make a body file from a person's measures",
     "urdf": "the exoskeleton's URDF for a body",
+    "export": "the exoskeleton as a model of MuJoCo, OpenSim or ROS 2",
     "devices": "the exoskeletons and planar models to choose from",
     "compare": "what each device loses of a walk",
     "joints": "which joints of a leg are worth their motor",

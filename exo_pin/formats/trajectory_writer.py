@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from exo_pin.anatomy import JOINTS
@@ -17,14 +18,29 @@ _REMARK = "# JointTrajectory [rad, rad/s, rad/s^2, s]; positive is what the join
 
 def write_yaml(gait: Gait, path: Path) -> None:
     """Write positions, velocities, accelerations and times from the start; metadata are comments."""
+    motion = (gait.q, gait.dq, gait.ddq)
+    write_text(path, yaml_message(JOINTS, _from_start(gait), motion, [_REMARK, *_comments(gait)]))
+
+
+def yaml_message(
+    joints: Sequence[str], time: Sequence[float], motion: Sequence[Array], comments: Sequence[str]
+) -> str:
+    """A JointTrajectory message in YAML.
+
+    Args:
+        joints: Their J names.
+        time: n times from the start [s].
+        motion: Positions, velocities and accelerations `(n, J)` [rad, rad/s, rad/s^2].
+        comments: Lines above the message, each of which starts with `#`.
+    """
     points = [
         "- positions: [{}]\n  velocities: [{}]\n  accelerations: [{}]\n  time_from_start: "
         "{{sec: {}, nanosec: {}}}".format(*(_numbers(row) for row in rows), *_stamp(t))
-        for t, *rows in zip(_from_start(gait), gait.q, gait.dq, gait.ddq, strict=True)
+        for t, *rows in zip(time, *motion, strict=True)
     ]
-    names = "joint_names:\n" + "\n".join(f"- {joint}" for joint in JOINTS)
+    names = "joint_names:\n" + "\n".join(f"- {joint}" for joint in joints)
     header = 'header: {stamp: {sec: 0, nanosec: 0}, frame_id: ""}'
-    write_text(path, "\n".join([_REMARK, *_comments(gait), header, names, "points:", *points, ""]))
+    return "\n".join([*comments, header, names, "points:", *points, ""])
 
 
 def write_json(gait: Gait, path: Path) -> None:

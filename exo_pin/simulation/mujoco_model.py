@@ -21,8 +21,7 @@ _SPHERE = 0.010
 
 FLOOR = "floor"
 """Name of the ground."""
-
-_OPTIONS = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco>'
+_OPTIONS = '<mujoco><compiler fusestatic="false" discardvisual="{discard}"/></mujoco>'
 
 
 @dataclass(frozen=True)
@@ -48,13 +47,22 @@ class Floor:
         number("damping_ratio", self.damping_ratio, above=0.0, most=100.0)
 
 
-def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0.001) -> Any:
+def mujoco_spec(
+    robot: Robot,
+    *,
+    floor: Floor | None = None,
+    timestep: float = 0.001,
+    visuals: bool = False,
+    free: bool = True,
+) -> Any:
     """The editable MuJoCo model (`mujoco.MjSpec`) of a robot.
 
     Args:
-        robot: With the sole corners of `CORNERS`. Its pelvis is free whatever `robot.base` is.
+        robot: With the sole corners of `CORNERS`.
         floor: The ground.
         timestep: Of the simulation [s].
+        visuals: Whether it keeps the URDF's visual shapes, which a simulation does not need.
+        free: Whether the root moves freely, whatever `robot.base` is; else it is fixed in the world.
 
     Raises:
         DescriptionError: MuJoCo does not accept the robot, or the timestep is not within 1 us to 0.1 s.
@@ -66,7 +74,7 @@ def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0
 
     floor = floor or Floor()
     try:
-        spec = mujoco.MjSpec.from_string(_with_options(robot.urdf))
+        spec = mujoco.MjSpec.from_string(_with_options(robot.urdf, visuals=visuals))
     except ValueError as error:
         raise DescriptionError(f"{robot.name}: MuJoCo does not accept its URDF") from error
     spec.option.timestep = timestep
@@ -79,7 +87,8 @@ def mujoco_spec(robot: Robot, *, floor: Floor | None = None, timestep: float = 0
     spec.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
-    _root(spec).add_freejoint(name="pelvis_free")
+    if free:
+        _root(spec).add_freejoint(name="pelvis_free")
     _add_soles(spec, floor)
     spec.worldbody.add_geom(
         name=FLOOR,
@@ -119,10 +128,10 @@ def compiled(spec: Any, robot: Robot) -> Any:
         raise DescriptionError(f"{robot.name}: MuJoCo does not accept it ({error})") from error
 
 
-def _with_options(urdf: str) -> str:
+def _with_options(urdf: str, *, visuals: bool) -> str:
     """The URDF with MuJoCo's own element in its root: no link is merged into its parent."""
     end = urdf.index(">", urdf.index("<robot")) + 1
-    return urdf[:end] + _OPTIONS + urdf[end:]
+    return urdf[:end] + _OPTIONS.format(discard=str(not visuals).lower()) + urdf[end:]
 
 
 def _root(spec: Any) -> Any:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exo_pin.viewer.live.server import Server, serve
-    from exo_pin.viewer.page.export import bundle, html
+    from exo_pin.viewer.page.packing import bundle, html
     from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
     from exo_pin.viewer.scenes.kinetics import Kinetics
     from exo_pin.viewer.scenes.scene import Scene
@@ -41,9 +41,9 @@ _HOMES = {
     "SceneOptions": "scenes.staging",
     "Server": "live.server",
     "View": "views",
-    "bundle": "page.export",
+    "bundle": "page.packing",
     "exoskeleton_scene": "scenes.compiler",
-    "html": "page.export",
+    "html": "page.packing",
     "retargeted": "views",
     "robot_scene": "scenes.compiler",
     "scene": "views",

@@ -14,7 +14,7 @@ from exo_pin.arguments import count
 from exo_pin.gait import Gait, Torques
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
-from exo_pin.viewer.page.export import html
+from exo_pin.viewer.page.packing import html
 from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
 from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.scene import Scene

@@ -15,7 +15,7 @@ from typing import Any, Literal, get_args
 from exo_pin.errors import DescriptionError, ExoPinError, UnknownNameError
 from exo_pin.viewer.film.chromium import Chromium
 from exo_pin.viewer.film.encode import FILMS
-from exo_pin.viewer.page.export import html
+from exo_pin.viewer.page.packing import html
 from exo_pin.viewer.scenes.scene import Scene
 
 CameraName = Literal["iso", "left", "right", "front", "back", "top", "feet"]

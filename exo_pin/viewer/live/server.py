@@ -122,7 +122,7 @@ class Server:
 
     def show(self, scene: Scene) -> bytes:
         """Show another scene in all pages, now and later; returns it packed."""
-        from exo_pin.viewer.page.export import bundle
+        from exo_pin.viewer.page.packing import bundle
 
         packed = bundle(scene)
         self._loop.call_soon_threadsafe(self._install, packed, scene)

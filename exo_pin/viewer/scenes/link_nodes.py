@@ -16,9 +16,9 @@ from typing import Literal, Protocol
 import numpy as np
 
 from exo_pin.errors import DescriptionError
-from exo_pin.robot import urdf_tree
+from exo_pin.robot import urdf_elements, urdf_tree
 from exo_pin.viewer.drawing_commands import Command, Material, draw, mesh, place
-from exo_pin.viewer.meshes import solids, urdf_elements
+from exo_pin.viewer.meshes import solids, urdf_shapes
 from exo_pin.viewer.meshes.solids import Color, Solid
 from exo_pin.viewer.scenes.scene import JointNode
 
@@ -172,7 +172,7 @@ class _Nesting:
     def visual(self, visual: ET.Element) -> Iterator[tuple[Solid, Material]]:
         """What can be drawn of a visual: a primitive, or the parts of a mesh."""
         geometry = visual.find("geometry")
-        solid = urdf_elements.solid(geometry)
+        solid = urdf_shapes.solid(geometry)
         if solid is not None:
             yield solid, self.material(visual)
         found = None if geometry is None else geometry.find("mesh")
@@ -192,7 +192,7 @@ class _Nesting:
 
     def joint(self, joint: ET.Element, path: str) -> None:
         child, name = urdf_elements.end(joint, "child"), joint.get("name", "")
-        placed = f"{path}/{urdf_elements.node(child)}"
+        placed = f"{path}/{urdf_shapes.node(child)}"
         self.commands.append(place(placed, urdf_elements.pose(joint.find("origin"))))
         kind = _MOVING.get(joint.get("type", ""))
         if kind is None:

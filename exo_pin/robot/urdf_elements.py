@@ -1,9 +1,8 @@
-"""Elements of a URDF as values: poses, shapes, colours, limits, the ends of joints."""
+"""Elements of a URDF as values: poses, colours, limits, the ends of joints."""
 
 from __future__ import annotations
 
 import math
-import re
 import xml.etree.ElementTree as ET
 from typing import Literal
 
@@ -11,8 +10,6 @@ import numpy as np
 
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
-from exo_pin.viewer.meshes import solids
-from exo_pin.viewer.meshes.solids import Solid
 
 
 def pose(origin: ET.Element | None) -> Array:
@@ -22,19 +19,6 @@ def pose(origin: ET.Element | None) -> Array:
         T[:3, :3] = rotation(*numbers(origin.get("rpy", "0 0 0")))
         T[:3, 3] = numbers(origin.get("xyz", "0 0 0"))
     return T
-
-
-def solid(geometry: ET.Element | None) -> Solid | None:
-    """The primitive of a `<geometry>`; None: it is a mesh, or nothing."""
-    if geometry is None:
-        return None
-    if (found := geometry.find("box")) is not None:
-        return solids.box(numbers(found.get("size", "")))
-    if (found := geometry.find("cylinder")) is not None:
-        return solids.cylinder(float(found.get("radius", 0)), float(found.get("length", 0)))
-    if (found := geometry.find("sphere")) is not None:
-        return solids.sphere(float(found.get("radius", 0)))
-    return None
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> Array:
@@ -81,8 +65,3 @@ def rgba(material: ET.Element) -> tuple[float, float, float, float] | None:
 def numbers(text: str) -> list[float]:
     """The numbers of an attribute."""
     return [float(part) for part in text.split()]
-
-
-def node(link: str) -> str:
-    """A link's name as the name of a node: `/` separates nodes, and `<object>` is meshcat's own."""
-    return re.sub(r"[^\w.-]", "_", link)
