@@ -21,6 +21,7 @@ _SPHERE = 0.010
 
 FLOOR = "floor"
 """Name of the ground."""
+
 _OPTIONS = '<mujoco><compiler fusestatic="false" discardvisual="{discard}"/></mujoco>'
 
 
