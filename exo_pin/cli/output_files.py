@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 from exo_pin.errors import FormatError
 
-_ARGUMENTS = ("output", "html", "page")
+_ARGUMENTS = ("output", "html", "page", "csv")
 """Names of the arguments that hold a file to write."""
 
 

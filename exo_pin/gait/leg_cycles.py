@@ -28,6 +28,7 @@ class LegCycle:
         sd: `(m, 6)` standard deviation over the cycles [rad]; None for fewer than two.
         stance: Toe-off in percent of the cycle; NaN if unknown.
         note: How the curve was made.
+        each: `(k, m, 6)` angles of each of k cycles [rad]; None where there is no whole one, or it repeats.
     """
 
     side: Side
@@ -36,6 +37,7 @@ class LegCycle:
     sd: Array | None
     stance: float
     note: str
+    each: Array | None = None
 
 
 def leg_cycles(gait: Gait) -> tuple[LegCycle, ...]:
@@ -81,6 +83,7 @@ def _leg(gait: Gait, side: Side) -> LegCycle | None:
         found.sd[:, columns] if several else None,
         _stance(gait, side, float(found.duration.mean())),
         f"{side}: {'one cycle of a periodic walk' if gait.periodic else whole}",
+        None if gait.periodic else found.q[:, :, columns],
     )
 
 

@@ -10,6 +10,7 @@ The rooms inside import one way only: draw -> document -> sections -> pages.
 from exo_pin.report.document.blocks import Document
 from exo_pin.report.document.html_page import html
 from exo_pin.report.document.markdown import markdown
+from exo_pin.report.document.numbers_csv import csv_of
 from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.pages.comparison_page import comparison
 from exo_pin.report.pages.reproduction import RenderedPictures, reproduction
@@ -22,6 +23,7 @@ __all__ = [
     "RenderedPictures",
     "ReportInfo",
     "comparison",
+    "csv_of",
     "html",
     "markdown",
     "reproduction",

@@ -37,12 +37,13 @@ class Table:
 class Figure:
     """Drawings side by side under one caption; `columns` at most (3: small, 2, 1: full width).
 
-    A single drawing that is not of full width has what follows beside it.
+    A single drawing that is not of full width has what follows beside it. `screen`: left out on paper.
     """
 
     drawings: tuple[Drawing, ...]
     caption: str = ""
     columns: int = 3
+    screen: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,27 +62,45 @@ class Player:
     still: bytes = b""
 
 
-Block = Paragraph | Table | Figure | Tiles | Player
+@dataclass(frozen=True)
+class Columns:
+    """Blocks side by side; one under the other on a phone."""
+
+    left: tuple[Paragraph | Table | Figure | Tiles, ...]
+    right: tuple[Paragraph | Table | Figure | Tiles, ...]
+
+
+Block = Paragraph | Table | Figure | Tiles | Player | Columns
+SectionKind = Literal["", "sheet", "appendix", "screen"]
 
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and the blocks under it."""
+    """A heading and the blocks under it.
+
+    `kind`: on paper a `"sheet"` begins a new page, `"appendix"` is small print in two columns, and
+    `"screen"` is left out.
+    """
 
     title: str
     blocks: tuple[Block, ...]
+    kind: SectionKind = ""
 
 
 @dataclass(frozen=True)
 class Document:
-    """A page: title, a line under it, sections."""
+    """A page: title, a line under it, sections; `foot` stands at the foot of every printed page."""
 
     title: str
     subtitle: str
     sections: tuple[Section, ...]
+    foot: str = ""
 
     @property
     def drawings(self) -> tuple[Drawing, ...]:
         """Every drawing in it, in order."""
-        blocks = [block for section in self.sections for block in section.blocks]
-        return tuple(d for block in blocks if isinstance(block, Figure) for d in block.drawings)
+        found: list[Drawing] = []
+        for block in (block for section in self.sections for block in section.blocks):
+            parts = (*block.left, *block.right) if isinstance(block, Columns) else (block,)
+            found += [d for part in parts if isinstance(part, Figure) for d in part.drawings]
+        return tuple(found)

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from html import escape, unescape
 from importlib import resources
+from itertools import groupby
 from typing import Any
 
-from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Player, Section, Table, Tiles
+from exo_pin.report.document.blocks import (
+    Block,
+    Columns,
+    Document,
+    Figure,
+    Paragraph,
+    Player,
+    Section,
+    Table,
+    Tiles,
+)
 
 _POLICY = (
     "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -27,13 +38,14 @@ def html(document: Document) -> str:
         document: What to show.
     """
     title = escape(document.title)
-    body = "\n".join(map(_section, document.sections))
+    body = "\n".join(_parts(document))
     style = (resources.files("exo_pin.report.document") / "page.css").read_text("utf-8")
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{escape(_policy(document))}">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f'<link rel="icon" href="data:,">\n<title>{title}</title>\n<style>{style}</style></head>\n'
+        f'<link rel="icon" href="data:,">\n<title>{title}</title>\n'
+        f"<style>{style}{_foot(document)}</style></head>\n"
         f'<body>\n<h1>{title}</h1>\n<p class="under">{escape(document.subtitle)}</p>\n'
         f"{body}\n</body></html>\n"
     )
@@ -50,8 +62,35 @@ def _policy(document: Document) -> str:
     return _POLICY.format(scripts=" ".join(sorted(hashes)) or "'none'")
 
 
+def _parts(document: Document) -> Iterator[str]:
+    """The sections; those of the appendix in one box, which has columns on paper."""
+    for appendix, sections in groupby(document.sections, lambda section: section.kind == "appendix"):
+        text = "\n".join(map(_section, sections))
+        yield f'<div class="appendix">\n{text}\n</div>' if appendix else text
+
+
+def _foot(document: Document) -> str:
+    """The style of the foot of printed pages: whose they are, and their numbers."""
+    if not document.foot:
+        return ""
+    words = "".join(x if x.isascii() and x.isalnum() else f"\\{ord(x):x} " for x in document.foot)
+    return (
+        f'@page {{ @bottom-left {{ content: "{words}"; font: 8pt sans-serif; color: #5d6875 }} '
+        '@bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; '
+        "color: #5d6875 } }"
+    )
+
+
+def _columns(block: Columns) -> str:
+    sides = ("\n".join(_BLOCKS[type(part)](part) for part in side) for side in (block.left, block.right))
+    return f'<div class="columns">{"".join(f"<div>{side}</div>" for side in sides)}</div>'
+
+
 def _section(section: Section) -> str:
-    parts = [f"<section><h2>{escape(section.title)}</h2>"]
+    seen = all(isinstance(block, Figure) and block.screen for block in section.blocks)
+    word = "screen" if seen else section.kind.removeprefix("appendix")
+    kind = f' class="{word}"' if word else ""
+    parts = [f"<section{kind}><h2>{escape(section.title)}</h2>"]
     parts += [_BLOCKS[type(block)](block) for block in section.blocks]
     return "\n".join([*parts, "</section>"])
 
@@ -90,9 +129,11 @@ def _figure(block: Figure) -> str:
     grid = "\n".join(pictures)
     alone = len(block.drawings) == 1
     kind = "grid full" if block.columns == 1 else "grid"
-    half = ' class="half"' if alone and block.columns > 1 else ""
+    half = alone and block.columns > 1
     columns = 1 if half else block.columns
-    return f'<figure{half}><div class="{kind}" style="--columns: {columns}">{grid}</div>{caption}</figure>'
+    kinds = " ".join(name for name, is_one in (("half", half), ("screen", block.screen)) if is_one)
+    opened = f'<figure class="{kinds}">' if kinds else "<figure>"
+    return f'{opened}<div class="{kind}" style="--columns: {columns}">{grid}</div>{caption}</figure>'
 
 
 def _tiles(block: Tiles) -> str:
@@ -122,4 +163,5 @@ _BLOCKS: dict[type[Block], Callable[[Any], str]] = {
     Figure: _figure,
     Tiles: _tiles,
     Player: _player,
+    Columns: _columns,
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from exo_pin.report.document.blocks import Block, Document, Figure, Paragraph, Section, Table, Tiles
+from exo_pin.report.document.blocks import Block, Columns, Document, Figure, Paragraph, Section, Table, Tiles
 
 
 def markdown(document: Document) -> str:
@@ -27,6 +27,8 @@ def _block(block: Block) -> str:
     if isinstance(block, Figure):
         pictures = [f"![{_plain(d.title)}]({d.file})" for d in block.drawings]
         return "\n".join(pictures) + (f"\n\n*{_plain(block.caption)}*" if block.caption else "")
+    if isinstance(block, Columns):
+        return "\n\n".join(map(_block, (*block.left, *block.right)))
     if isinstance(block, Tiles):
         return "\n".join(f"- {_plain(what)}: **{_plain(value)}**" for what, value, _ in block.items)
     return ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -27,6 +28,7 @@ class Curve:
     label: str = ""
     dash: str | None = None
     width: float = 1.7
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,14 @@ class Span(NamedTuple):
     colour: str
     label: str = ""
     lane: int | None = None
+
+
+class Moment(NamedTuple):
+    """A dashed vertical line, e.g. an event."""
+
+    x: float
+    colour: str
+    label: str = ""
 
 
 class Level(NamedTuple):
@@ -74,6 +84,8 @@ class Chart:
         bands: Under the curves.
         spans: Under everything.
         levels: Horizontal lines; they do not widen the y axis.
+        moments: Vertical lines.
+        legend: Whether it is under the chart; `key` makes one for several charts.
         x_range: From, to; that of the curves if left out.
         y_range: Likewise.
         least: Smallest extent of the y axis, so that noise is not enlarged to the whole axis.
@@ -88,6 +100,8 @@ class Chart:
     bands: tuple[Band, ...] = ()
     spans: tuple[Span, ...] = ()
     levels: tuple[Level, ...] = ()
+    moments: tuple[Moment, ...] = ()
+    legend: bool = True
     x_range: tuple[float, float] | None = None
     y_range: tuple[float, float] | None = None
     least: float = 0.0
@@ -123,10 +137,11 @@ def draw(chart: Chart) -> str:
     """The chart as one `<svg>` that scales to the width it is given."""
     frame = _frame(chart)
     top = frame.top + frame.height + _BOTTOM
-    keys, rows = legend.rows(_marks(chart, frame), frame.left, top, chart.width)
+    marks = _marks(chart, frame) if chart.legend else {}
+    keys, rows = legend.rows(marks, frame.left, top, chart.width)
     height = top + legend.ROW_HEIGHT * rows
     clip = f"c{zlib.crc32(repr(frame).encode()):x}"  # equal areas share a name, which does no harm
-    inner = [*_spans(chart, frame), *_bands(chart, frame), *_levels(chart, frame), *_curves(chart, frame)]
+    inner = [part for draw_part in _INNER for part in draw_part(chart, frame)]
     area = {"x": frame.left, "y": frame.top, "width": frame.width, "height": frame.height}
     parts = [
         svg.tag("clipPath", svg.tag("rect", **area), id=clip),
@@ -208,11 +223,48 @@ def _levels(chart: Chart, frame: _Frame) -> list[str]:
     return parts
 
 
+def _moments(chart: Chart, frame: _Frame) -> list[str]:
+    return [
+        svg.line(
+            [[at, frame.top], [at, frame.top + frame.height]],
+            moment.colour,
+            stroke_dasharray="4 3",
+            stroke_width=0.9,
+        )
+        for moment in chart.moments
+        for at in [float(frame.across(moment.x))]
+    ]
+
+
 def _curves(chart: Chart, frame: _Frame) -> list[str]:
     return [
-        svg.line(_thinned(frame.points(c.x, c.y)), c.colour, stroke_width=c.width, stroke_dasharray=c.dash)
+        svg.line(
+            _thinned(frame.points(c.x, c.y)),
+            c.colour,
+            stroke_width=c.width,
+            stroke_dasharray=c.dash,
+            opacity=None if c.opacity == 1.0 else c.opacity,
+        )
         for c in chart.curves
     ]
+
+
+_INNER = (_spans, _bands, _levels, _moments, _curves)
+"""What is drawn within the axes, from the back to the front."""
+
+
+def key(charts: Sequence[Chart], width: float = 900.0) -> str:
+    """One legend for several charts, as a picture of its own.
+
+    Args:
+        charts: Whose marks it explains.
+        width: Of the picture [px].
+    """
+    marks: dict[str, str] = {}
+    for chart in charts:
+        marks |= _marks(chart, _frame(chart))
+    parts, rows = legend.rows(marks, 2.0, 0.0, width)
+    return svg.drawing(width, legend.ROW_HEIGHT * rows + 4, parts, "Key of the curves")
 
 
 def _thinned(points: Array) -> Array:
@@ -230,6 +282,7 @@ def _marks(chart: Chart, frame: _Frame) -> dict[str, str]:
             marks[level.label] = _dash(level.colour, "2 3", 1.6)
         elif level.always_in_legend:
             marks[f"{level.label}: off the axis"] = _dash(level.colour, "2 3", 1.6)
+    marks |= {moment.label: _dash(moment.colour, "4 3", 1.2) for moment in chart.moments}
     marks |= {span.label: _swatch(span.colour, 0.12 if span.lane is None else 0.75) for span in chart.spans}
     marks.pop("", None)
     return marks

@@ -52,8 +52,14 @@ def model_drawing(robot: Robot) -> Drawing:
     return Drawing("fig3_model", title, svg.drawing(520, 640, _legs(robot, project, thin=False), title))
 
 
-def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
-    """Ten poses of the first cycle (or of all) from the side, axes in cm, and how they were placed."""
+def poses_chart(robot: Robot, gait: Gait, *, width: float = 900.0) -> tuple[Drawing, str]:
+    """Ten poses of the first cycle (or of all) from the side, axes in cm, and how they were placed.
+
+    Args:
+        robot: The device on a body.
+        gait: The walk.
+        width: Of the picture [px].
+    """
     rows, what = moments(gait)
     chains = {side: chain(robot, gait, side)[rows] for side in SIDES}
     lowest = np.min([chain[:, 3:, 2].min(axis=1) for chain in chains.values()], axis=0)
@@ -67,14 +73,14 @@ def poses_chart(robot: Robot, gait: Gait) -> tuple[Drawing, str]:
     everything = np.concatenate([np.stack([np.asarray(c.x), np.asarray(c.y)], axis=1) for c in curves])
     (low, _), (high, top) = everything.min(axis=0), everything.max(axis=0)
     chart = Chart(
-        title=f"Ten poses of {what}, seen from the left [cm]",
+        title=f"Ten poses of {what}, from the left [cm]",
         x_label="forward [cm]",
         curves=tuple(curves),
         levels=(Level(0.0, svg.INK),),
         x_range=(low - 12, high + 12),
         y_range=(-8, top + 10),
         equal=True,
-        width=900,
+        width=width,
     )
     note = f"{how} Each pose stands on its lowest sole corner (the support carries the pelvis)."
     return Drawing("fig5_poses", chart.title, draw(chart)), note

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy.names import Speed
+from exo_pin.clinic import published_band
 from exo_pin.crosscheck import errors_by_step
 from exo_pin.gait import Gait, leg_cycles
 from exo_pin.kinematics import deviation_from_parallel, joint_frames
@@ -134,13 +135,13 @@ def _curves(gait: Gait, recording: Gait | None, name: str) -> Section:
     found = leg_cycles(gait)
     apart = float(np.degrees(np.abs(found[0].q - found[1].q).max()))
     words = f"Source: {gait.source}. Cycle of {gait.duration:.3f} s. Its two legs differ by {apart:.1g} deg."
-    band = angles.NORMATIVE_BAND_SOURCE.format(speed=_SPEED)
-    drawings = _named(angles.charts(found, speed=_SPEED, limits={}), "fig4")
+    band = angles.band_words(published_band(_SPEED)).strip().removeprefix("Grey band: ")
+    drawings = _named(angles.charts(found, band=published_band(_SPEED)), "fig4")
     blocks: list[Block] = [Paragraph(words), Figure(drawings, f"Fig. 4. The input gait. Band: {band}")]
     if recording is not None:
         mine = leg_cycles(recording)
         how = "; ".join(leg.note for leg in mine) or "no heel strikes in it, so it has no cycle"
-        shown = _named(angles.charts(mine, speed=_SPEED, limits={}), "fig4_recording")
+        shown = _named(angles.charts(mine, band=published_band(_SPEED)), "fig4_recording")
         blocks.append(Figure(shown, f"{name} before the same band. {how}."))
     return Section("Fig. 4: the input gait", tuple(blocks))
 

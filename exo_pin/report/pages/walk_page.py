@@ -2,24 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from exo_pin import crosscheck, kinematics
+from exo_pin.anatomy import JOINTS
 from exo_pin.anatomy.names import Speed
+from exo_pin.clinic import ClinicalCycles, NormalBand, clinical_cycles, gait_profile, published_band
 from exo_pin.feasible import DeviceWalk
 from exo_pin.gait import Gait, Plausibility, Torques
 from exo_pin.gait.heading import heading, turned
 from exo_pin.gait.marked_feet import FootMarkers
-from exo_pin.kinematics import joint_rates
+from exo_pin.kinematics import joint_rates, with_events
 from exo_pin.report.document.blocks import Document, Paragraph, Player, Section, Tiles
-from exo_pin.report.sections import actuators, agreement, fact_tables, foot_paths
+from exo_pin.report.sections import (
+    actuators,
+    agreement,
+    clinical,
+    control,
+    fact_tables,
+    first_sheet,
+    foot_paths,
+    forces,
+)
 from exo_pin.report.sections.angles import curves
 from exo_pin.report.sections.centre_of_mass_path import centre_of_mass
 from exo_pin.report.sections.ranges import ranges
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, load_robot
+from exo_pin.simulation import Run
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,6 +44,7 @@ class ReportInfo:
         what: The file or the walk's name.
         when: The moment of the run.
         choices: What was chosen, by name, e.g. the preset of a file.
+        session: Who was recorded, where and when, by the file (`TrialFile.session`), and `body` in words.
     """
 
     title: str = "Gait report"
@@ -39,6 +52,7 @@ class ReportInfo:
     what: str = ""
     when: str = ""
     choices: Mapping[str, str] = field(default_factory=dict)
+    session: Mapping[str, str] = field(default_factory=dict)
 
 
 def walk(
@@ -48,14 +62,17 @@ def walk(
     info: ReportInfo | None = None,
     player: str = "",
     still: bytes = b"",
-    normal: Speed | None = "free",
+    normal: NormalBand | Speed | None = "free",
     cutoff: float | None = 6.0,
     torques: Torques | None = None,
     plausibility: Plausibility | None = None,
     feet: FootMarkers | None = None,
     answer: DeviceWalk | None = None,
+    clinical_sides: Sequence[ClinicalCycles] | None = None,
+    loads: forces.Loads | str = "",
+    run: Run | None = None,
 ) -> Document:
-    """The report of a walk.
+    """The report of a walk: two sheets of answers, forces and control where they are given, an appendix.
 
     Args:
         robot: The device on a body.
@@ -63,13 +80,16 @@ def walk(
         info: Title, person, walk and time of the report.
         player: A whole HTML page to embed; empty: none.
         still: A PNG that replaces the player on paper.
-        normal: Speed of the normative band behind the joint curves; None: no band.
+        normal: The normal band, or its speed in Schwartz 2008; None: no band.
         cutoff: Low-pass of velocities and accelerations of recordings [Hz]; None: no filter. Periodic walks
             are differentiated by their Fourier series and never filtered.
         torques: Joint torques at the walk's times, if known.
         plausibility: The verdict on the walk as it was read; default: by its motion on this robot.
         feet: Heel and toe markers of the walk's trial, where lengths are measured.
         answer: The device's answer to the walk: verdict, reason and loss, stated first.
+        clinical_sides: The person's cycles; default: `clinic.clinical_cycles` of the walk.
+        loads: Forces of the walk; words: why there are none; empty: no chapter on them.
+        run: A simulated run; None: no chapter on control.
 
     Raises:
         DescriptionError: The robot was not made for a body.
@@ -77,57 +97,91 @@ def walk(
     """
     info = info or ReportInfo()
     gait, forward = _ahead(gait)
-    verdict = crosscheck.check(robot, gait)
-    rates = joint_rates(robot, gait, cutoff=cutoff)
+    band = published_band(normal) if isinstance(normal, str) else normal
+    read = plausibility or kinematics.plausibility(robot, gait)
+    found = kinematics.walk_numbers(robot, gait, feet)
+    sides = _sides(robot, gait, feet) if clinical_sides is None else clinical_sides
+    profile = None if band is None else gait_profile(sides, band)
+    person, device = (gait, None) if answer is None else _person_and_device(answer, gait)
+    facts = ({"person": info.who} if info.who else {}) | dict(info.session)
     sections = [
-        *([] if answer is None else [_answered(answer)]),
-        _summary(gait, info, verdict, plausibility or kinematics.plausibility(robot, gait)),
-        fact_tables.body(robot),
-        fact_tables.device(robot),
+        first_sheet.who_and_what(robot, gait, facts, answer, read),
+        first_sheet.numbers(found, profile),
+        curves(robot, person, band, device),
         *([_played(player, info.title, still)] if player else []),
-        curves(robot, gait, normal, None if answer is None or not answer.device.locked else answer.gait),
-        ranges(robot, gait),
-        actuators.rates(robot, gait, rates),
+        clinical.beside_the_joints(sides, band),
+        *([] if profile is None else [clinical.profile(profile)]),
+        fact_tables.numbers(found),
+        *_forces(loads),
         *([actuators.torques(robot, gait, torques)] if torques else []),
-        foot_paths.paths(robot, gait, forward),
-        centre_of_mass(robot, gait),
-        foot_paths.contact(gait),
-        fact_tables.numbers(robot, gait, feet),
-        agreement.inverse(gait, verdict),
-        agreement.agreement(verdict),
-        fact_tables.choices(robot, gait, {"forward": forward, **info.choices}, rates.how, normal),
+        *([] if run is None else [control.control(run)]),
+        *_appendix(robot, gait, info, {"forward": forward, **_cited(found)}, band, cutoff),
     ]
     under = [f"{name}: {words}" for name, words in (("walk", info.what), ("who", info.who)) if words]
-    return Document(info.title, "; ".join([*under, *([info.when] if info.when else [])]), tuple(sections))
+    foot = ", ".join(filter(None, (facts.get("person", ""), info.what, info.when)))
+    subtitle = "; ".join([*under, *([info.when] if info.when else [])])
+    return Document(info.title, subtitle, tuple(sections), foot or info.title)
 
 
-def _answered(answer: DeviceWalk) -> Section:
-    """The verdict on device and walk with its reason, and what the soles lose."""
-    grades = {"fits": "fits", "concession": "fits with a concession", "no": "does not fit"}
-    tiles = (
-        (f"{answer.title} and this walk", grades[answer.verdict], answer.ok),
-        ("soles miss the walk's, rms", f"{1e3 * answer.loss.rms:.1f} mm", None),
-        ("motors", str(answer.device.motors), None),
-    )
-    words = filter(None, (f"{answer.sentence}.", answer.loss_sentence, answer.belt_warning))
-    return Section("Verdict", (Tiles(tiles), *(Paragraph(sentence) for sentence in words)))
+def _sides(robot: Robot, gait: Gait, feet: FootMarkers | None) -> tuple[ClinicalCycles, ...]:
+    """The cycles of the walk; on the person's own legs where the device lacks joints."""
+    if not set(JOINTS) <= set(robot.joints):
+        robot = load_robot(robot.body)
+    return clinical_cycles(robot, gait, feet=feet)
 
 
-def _ahead(gait: Gait) -> tuple[Gait, str]:
-    """The walk turned so that it goes along x, and what forward means, in words."""
-    angle = heading(gait)
-    if angle is None:
-        return gait, "the walk's own x axis"
-    how = f"the pelvis's mean heading, {np.degrees(angle) + 0.0:.1f} deg from the walk's own x axis"
-    return turned(gait, -angle), how
+def _person_and_device(answer: DeviceWalk, shown: Gait) -> tuple[Gait, Gait | None]:
+    """The recorded walk with its events, and the device's motion; None where that is the recorded one."""
+    person = with_events(answer.as_recorded.robot, answer.recorded) if shown.events else answer.recorded
+    same = len(person) == len(shown) and np.allclose(person.q, shown.q, rtol=0, atol=1e-3)
+    return person, None if same else shown
 
 
-def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check, read: Plausibility) -> Section:
+def _forces(loads: forces.Loads | str) -> list[Section]:
+    if isinstance(loads, str):
+        return [forces.not_known(loads)] if loads else []
+    return [forces.forces(loads)]
+
+
+def _appendix(
+    robot: Robot,
+    gait: Gait,
+    info: ReportInfo,
+    said: Mapping[str, str],
+    band: NormalBand | None,
+    cutoff: float | None,
+) -> list[Section]:
+    """Numerics: residuals, limits, cross-checks, choices."""
+    verdict, rates = crosscheck.check(robot, gait), joint_rates(robot, gait, cutoff=cutoff)
+    sections = [
+        _checked(gait, verdict),
+        fact_tables.body(robot),
+        fact_tables.device(robot),
+        ranges(robot, gait),
+        actuators.rates(robot, gait, rates),
+        foot_paths.paths(robot, gait, said["forward"]),
+        centre_of_mass(robot, gait),
+        foot_paths.contact(gait),
+        agreement.inverse(gait, verdict),
+        agreement.agreement(verdict),
+        fact_tables.choices(robot, gait, {**said, **info.choices}, rates.how, band),
+    ]
+    return [replace(section, kind="appendix") for section in sections]
+
+
+def _cited(found: kinematics.WalkNumbers) -> dict[str, str]:
+    """Where lengths were measured, and the publications of the usual ranges."""
+    cited = "; ".join(f"{key}: {text}" for key, text in sorted(found.citations.items()))
+    places = ", ".join(dict.fromkeys(found.measured.values()))
+    words = {"lengths are measured at": places, "usual ranges": cited}
+    return {what: text for what, text in words.items() if text}
+
+
+def _checked(gait: Gait, verdict: crosscheck.Check) -> Section:
     track = verdict.recovery.track
-    apart = max(verdict.fk.values())
     outside = verdict.joints_outside
+    apart = max(verdict.fk.values())
     tiles = (
-        ("the walk as it was read", read.word, not read.reasons),
         (
             "cross-checks of the model",
             "all agree" if verdict.consistent else _disagreement(verdict),
@@ -139,10 +193,16 @@ def _summary(gait: Gait, info: ReportInfo, verdict: crosscheck.Check, read: Plau
         ("length of the walk", f"{gait.duration:.3f} s", None),
         ("samples", str(len(gait)), None),
     )
-    words = f"{info.what or 'The walk'}: {gait.source or 'source not stated'}."
-    kind = "One cycle that repeats." if gait.periodic else "A recording that does not repeat."
-    reasons = [Paragraph(f"Doubtful: {reason}") for reason in read.reasons]
-    return Section("Summary", (Tiles(tiles), *reasons, Paragraph(f"{words} {kind}")))
+    return Section("Appendix: how far to trust the numbers", (Tiles(tiles),))
+
+
+def _ahead(gait: Gait) -> tuple[Gait, str]:
+    """The walk turned so that it goes along x, and what forward means, in words."""
+    angle = heading(gait)
+    if angle is None:
+        return gait, "the walk's own x axis"
+    how = f"the pelvis's mean heading, {np.degrees(angle) + 0.0:.1f} deg from the walk's own x axis"
+    return turned(gait, -angle), how
 
 
 def _disagreement(verdict: crosscheck.Check) -> str:
@@ -156,4 +216,5 @@ def _disagreement(verdict: crosscheck.Check) -> str:
 
 def _played(player: str, title: str, still: bytes) -> Section:
     words = "Drag to turn, space to play; it works without a network."
-    return Section("The walk", (Player(player, f"Player: {title}", still), Paragraph(words, "note screen")))
+    blocks = (Player(player, f"Player: {title}", still), Paragraph(words, "note screen"))
+    return Section("The walk in 3-D", blocks, "" if still else "screen")

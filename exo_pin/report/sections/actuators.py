@@ -51,12 +51,14 @@ def rates(robot: Robot, gait: Gait, found: JointRates) -> Section:
         Figure(
             walk_charts.by_movement(
                 gait, found.dq, names, "velocity", "rad/s", limits=speed_limits, limit="actuator"
-            )
+            ),
+            screen=True,
         ),
         Figure(
             walk_charts.by_movement(
                 gait, found.ddq, names, "acceleration", "rad/s²", limits=acceleration_limits, limit="limit"
-            )
+            ),
+            screen=True,
         ),
         Table(columns, rows, "Peak rates against the actuators"),
         Paragraph(note, "note"),

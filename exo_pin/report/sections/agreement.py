@@ -58,7 +58,9 @@ def inverse(gait: Gait, verdict: Check) -> Section:
     )
     drawing = Drawing("ik_error", chart.title, draw(chart))
     table = Table(("inverse kinematics", "value", "unit"), rows)
-    return Section("Inverse kinematics", (Paragraph(words), Figure((drawing,), columns=1), table))
+    return Section(
+        "Inverse kinematics", (Paragraph(words), Figure((drawing,), columns=1, screen=True), table)
+    )
 
 
 def _spare(slack: Array) -> str:

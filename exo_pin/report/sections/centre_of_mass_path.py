@@ -32,7 +32,7 @@ def centre_of_mass(robot: Robot, gait: Gait) -> Section:
     )
     caption = f"Centre of mass{whose}: device and wearer; head, arms and trunk are one part of the pelvis."
     table = Table(("direction", "mean m", "excursion mm"), rows, "In the world frame")
-    return Section("Centre of mass", (Figure(charts(gait, position), caption), table))
+    return Section("Centre of mass", (Figure(charts(gait, position), caption, screen=True), table))
 
 
 def charts(gait: Gait, position: Array) -> tuple[Drawing, ...]:

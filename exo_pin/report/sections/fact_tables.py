@@ -6,11 +6,10 @@ import math
 from collections.abc import Mapping
 
 from exo_pin.anatomy.body import Leg
-from exo_pin.anatomy.names import Speed
+from exo_pin.clinic import NormalBand
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
-from exo_pin.gait.marked_feet import FootMarkers
-from exo_pin.kinematics import walk_numbers
+from exo_pin.kinematics import WalkNumbers
 from exo_pin.report.document.blocks import Block, Paragraph, Section, Table
 from exo_pin.robot import Robot
 from exo_pin.version import __version__
@@ -69,16 +68,13 @@ def device(robot: Robot) -> Section:
     return Section("Device", (Table(("device", ""), rows, prose=True),))
 
 
-def numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> Section:
+def numbers(found: WalkNumbers) -> Section:
     """Cadence, speed, lengths and phases against published ranges.
 
     Args:
-        robot: On the person's body.
-        gait: The walk.
-        feet: Heel and toe markers of its trial.
+        found: Of the walk.
     """
     title = "Spatiotemporal numbers"
-    found = walk_numbers(robot, gait, feet)
     if found.missing:
         return Section(title, (Paragraph(f"None: {found.missing}."),))
     rows = []
@@ -99,10 +95,16 @@ def numbers(robot: Robot, gait: Gait, feet: FootMarkers | None = None) -> Sectio
         manner.append(Paragraph(f"Estimate: {found.estimate}.", "note"))
     left = (f"{x.side} {x.start:.2f} .. {x.end:.2f} s, {x.why}" for x in found.left_out)
     gone = [Paragraph(f"Left out: {'; '.join(left)}.", "note")] if found.left_out else []
-    return Section(title, (Table(columns, rows), *manner, *gone, Paragraph(note, "note")))
+    return Section(title, (Table(columns, rows), *manner, *gone, Paragraph(note, "note screen")))
 
 
-def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, normal: Speed | None) -> Section:
+def choices(
+    robot: Robot,
+    gait: Gait,
+    chosen: Mapping[str, str],
+    rates: str,
+    band: NormalBand | None,
+) -> Section:
     """Everything that was chosen, so that the report can be made again.
 
     Args:
@@ -110,7 +112,7 @@ def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, nor
         gait: The walk.
         chosen: Further choices, by name.
         rates: How velocities and accelerations were made.
-        normal: Speed of the normative band; None: no band.
+        band: Normal walks; None: no band.
     """
     sources = sorted({event.source or "not stated" for event in gait.events})
     rows = [
@@ -119,7 +121,7 @@ def choices(robot: Robot, gait: Gait, chosen: Mapping[str, str], rates: str, nor
         ["events", ", ".join(sources) or "none"],
         ["pelvis", "moves as the walk says" if gait.base is not None else "held still"],
         ["velocities and accelerations", rates],
-        ["normative band", "none" if normal is None else f"Schwartz 2008, {normal}, 1 standard deviation"],
+        ["normal band", "none" if band is None else f"{band.name}: {band.population}, 1 standard deviation"],
         ["hip angles", f"{robot.hip_order} order of axes; curves in the clinical order"],
         *([name, words] for name, words in chosen.items()),
         ["made with", f"exo_pin {__version__}"],

@@ -8,7 +8,7 @@ from exo_pin.gait import Gait, stance_times
 from exo_pin.kinematics import poses
 from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.report.document.blocks import Figure, Paragraph, Section, Table
-from exo_pin.report.draw import skeleton, svg, walk_charts
+from exo_pin.report.draw import svg, walk_charts
 from exo_pin.report.draw.chart import Chart, Curve, draw
 from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.report.draw.drawing import Drawing
@@ -27,14 +27,11 @@ def paths(robot: Robot, gait: Gait, forward: str) -> Section:
     corners = poses(robot, robot.from_gait(gait), CORNERS, base=base)[..., :3, 3]
     drawings = foot_paths(gait, corners)
     placed = "where its file puts it" if gait.base is not None else "still, as the support holds it"
-    stick, note = skeleton.poses_chart(robot, gait)
     caption = (
         f"Heel and ball: midway between the sole's corners. Forward is {forward}; the pelvis is {placed}; "
         "heights count from the world's ground; the soles of a body of another size may end elsewhere."
     )
-    return Section(
-        "Paths of the feet", (Figure(drawings, caption, columns=2), Figure((stick,), note, columns=1))
-    )
+    return Section("Paths of the feet", (Figure(drawings, caption, columns=2, screen=True),))
 
 
 def contact(gait: Gait) -> Section:
@@ -51,7 +48,7 @@ def contact(gait: Gait) -> Section:
         ]
         for event, last in zip(gait.events, before, strict=False)
     ]
-    figure = Figure((timeline(gait),), "Bars: from heel strike to toe-off.", columns=1)
+    figure = Figure((timeline(gait),), "Bars: from heel strike to toe-off.", columns=1, screen=True)
     return Section(
         "Feet on the ground", (figure, Table(("event", "time s", "since the one before s", "source"), rows))
     )

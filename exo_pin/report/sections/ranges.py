@@ -38,7 +38,7 @@ def ranges(robot: Robot, gait: Gait) -> Section:
         "frames outside",
     )
     blocks: tuple[Block, ...] = (
-        Figure((range_bars(bars),), columns=1),
+        Figure((range_bars(bars),), columns=1, screen=True),
         Table(columns, rows, "Ranges and limits [deg]; margin: to the nearer limit, negative outside"),
     )
     return Section("Ranges and limit margins", blocks)
