@@ -189,7 +189,7 @@ def find(device: str | Device) -> Device:
 
     Raises:
         UnknownNameError: There is no device of that name.
-        FormatError: The file is no device, or has the name of a known one.
+        FormatError: The file is a robot's description, no device, or has the name of a known one.
     """
     if isinstance(device, Device):
         return device
@@ -201,4 +201,10 @@ def find(device: str | Device) -> Device:
         if own.name in DEVICES:
             raise FormatError(device, f"name {own.name!r} is that of a device of exo_pin; take another")
         return own
+    if isinstance(device, str | Path) and Path(device).suffix.lower() in (".urdf", ".xacro"):
+        raise FormatError(
+            device,
+            "a robot's description is no device: a name or a TOML record is accepted (docs/devices.md); "
+            "robots walk by `exo-pin retarget` and by --robot of replay, picture, film and report",
+        )
     raise UnknownNameError("device", device, (*DEVICES, *_PRODUCTS))

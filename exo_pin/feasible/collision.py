@@ -38,8 +38,11 @@ def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:
         q: Configurations (n, nq) [rad].
 
     Raises:
-        DescriptionError: The shape of q does not fit, or a number is not finite.
+        DescriptionError: The robot is none of this package's devices, the shape of q does not fit, or a
+            number is not finite.
     """
+    if robot.device is None:
+        raise DescriptionError(f"{robot.name} is no device of this package, whose parts are known")
     rows = real("q", q, ("n", robot.nq))
     if not len(rows):
         raise DescriptionError("q holds no configuration")

@@ -33,7 +33,7 @@ class PlacedWalk:
         base: `(n, 4, 4)` pose of the pelvis as placed.
         feet: `(n, 2, 4, 4)` poses of `FEET` as placed.
         corners: `(n, 8, 3)` sole corners as placed [m].
-        com: `(n, 3)` centre of mass as placed [m].
+        com: `(n, 3)` centre of mass as placed [m]; None where the robot states no masses.
         stance: Side -> intervals on the ground.
         estimated: Whether stance is guessed from heights because the gait has no events.
         support: How the pelvis was carried, and what remains.
@@ -44,7 +44,7 @@ class PlacedWalk:
     base: Array
     feet: Array
     corners: Array
-    com: Array
+    com: Array | None
     stance: Intervals
     estimated: bool
     support: Support
@@ -74,7 +74,7 @@ def place(
     q: Array,
     base: Array,
     T_pelvis: Array,
-    com_pelvis: Array,
+    com_pelvis: Array | None,
     style: SupportStyle,
     subject: str,
 ) -> PlacedWalk:
@@ -85,7 +85,7 @@ def place(
         q: `(n, J)` joint values in the order of `Robot.joints` [rad].
         base: `(n, 4, 4)` pose of the pelvis (or root link) as given.
         T_pelvis: `(n, 10, 4, 4)` poses of `FEET` and `CORNERS` seen from there.
-        com_pelvis: `(n, 3)` centre of mass seen from there [m].
+        com_pelvis: `(n, 3)` centre of mass seen from there [m]; None where it is not known.
         style: How the pelvis is carried, one of `STYLES`.
         subject: First words of the note on the support, e.g. `"The pelvis"`.
 
@@ -96,7 +96,6 @@ def place(
     n = len(gait)
     q, base = real("q", q, (n, "J")), real("base", base, (n, 4, 4))
     T_pelvis = real("T_pelvis", T_pelvis, (n, len(FEET) + len(CORNERS), 4, 4))
-    com_pelvis = real("com_pelvis", com_pelvis, (n, 3))
     corners = (base[:, None] @ T_pelvis[:, len(FEET) :])[..., :3, 3]
     known = stance_from_events(gait)
     stance = known or estimated_stance(gait, lowest_corners(corners))
@@ -108,7 +107,7 @@ def place(
         base=carried.base,
         feet=placed[:, : len(FEET)],
         corners=placed[:, len(FEET) :, :3, 3],
-        com=transformed(carried.base, com_pelvis),
+        com=None if com_pelvis is None else transformed(carried.base, real("com_pelvis", com_pelvis, (n, 3))),
         stance=stance,
         estimated=known is None,
         support=carried,

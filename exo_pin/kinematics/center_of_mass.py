@@ -9,6 +9,7 @@ import numpy.typing as npt
 import pinocchio as pin
 
 from exo_pin.arrays import Array
+from exo_pin.errors import DescriptionError
 from exo_pin.kinematics.motion import moved, rates, samples
 from exo_pin.robot import Robot
 
@@ -45,8 +46,10 @@ def center_of_mass(
         base: T_world_pelvis as in `exo_pin.kinematics.poses`.
 
     Raises:
-        DescriptionError: A shape does not fit, or a number is not finite.
+        DescriptionError: A shape does not fit, a number is not finite, or no link has a mass.
     """
+    if not has_mass(robot):
+        raise DescriptionError(f"{robot.name} has no centre of mass: no link of its URDF has a mass")
     rows, shape = samples(robot, q)
     still = np.zeros((*shape, robot.model.nv))
     speeds = rates(robot, still if dq is None else dq, shape, "dq")
@@ -63,6 +66,11 @@ def center_of_mass(
     turned = (T[..., :3, :3] @ out[..., None])[..., 0]
     turned[0] += T[..., :3, 3]
     return CenterOfMass(*turned)
+
+
+def has_mass(robot: Robot) -> bool:
+    """Whether any link has a mass; some URDFs state geometry alone."""
+    return any(inertia.mass > 0.0 for inertia in robot.model.inertias)
 
 
 def _with_root(robot: Robot, com: Array) -> Array:

@@ -107,7 +107,10 @@ def limbs(known: Standing, up: str) -> list[list[int]]:
             f"{robot.name} has no two legs: {len(paths)} limbs or wheels reach down along {up}; {REMEDY}"
         )
     if len(paths) < 2 or not _reach_down(known, paths, unit_vector(up)):
-        raise NoPairError(f"{robot.name} has no two legs: no pair of limbs reaches down; {REMEDY}")
+        raise NoPairError(
+            f"{robot.name} has no two legs: no pair of limbs with {FEWEST_JOINTS} moving joints or more of "
+            f"their own reaches down; {REMEDY}"
+        )
     return paths
 
 

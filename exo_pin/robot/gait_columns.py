@@ -12,7 +12,7 @@ from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES
 from exo_pin.anatomy.hip_cardan_angles import reorder
 from exo_pin.anatomy.names import HipOrder
 from exo_pin.arrays import Array
-from exo_pin.errors import UnknownNameError
+from exo_pin.errors import DescriptionError
 
 _HIPS = HIP_ORDERS["clinical"]
 
@@ -25,11 +25,14 @@ def gait_columns(model: Any, joints: Sequence[str]) -> tuple[list[int], list[int
         joints: Names of the driven joints, the last ones of q.
 
     Raises:
-        UnknownNameError: The robot has one of the gait's joints neither moving nor locked.
+        DescriptionError: The robot has one of the gait's joints neither moving nor locked.
     """
-    for name in set(JOINTS) - set(joints):
-        if not model.existFrame(name, pin.FrameType.FIXED_JOINT):
-            raise UnknownNameError("joint", name, tuple(joints))
+    for name in JOINTS:
+        if name not in joints and not model.existFrame(name, pin.FrameType.FIXED_JOINT):
+            raise DescriptionError(
+                f"{model.name} has no joint {name!r}, which every exoskeleton of this package has; "
+                "`exo_pin.retarget.retarget(gait, robot)` brings a walk to other robots (docs/robots.md)"
+            )
     mine = [k for k, name in enumerate(JOINTS) if name in joints]
     first = model.nq - len(joints)
     return mine, [first + joints.index(JOINTS[k]) for k in mine]

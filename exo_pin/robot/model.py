@@ -250,7 +250,7 @@ class Robot:
         Joints that the device locks are dropped; joints that the device adds stay at zero.
 
         Raises:
-            UnknownNameError: The robot has one of the gait's joints neither moving nor locked.
+            DescriptionError: The robot has one of the gait's joints neither moving nor locked.
         """
         q = np.tile(self.neutral, (len(gait.q), 1))
         if self.base == "floating" and gait.base is not None:

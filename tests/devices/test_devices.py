@@ -261,6 +261,8 @@ def test_a_wrong_device_file_is_refused_by_name(tmp_path, old, new):
 def test_unknown_devices_are_refused_with_a_hint():
     with pytest.raises(UnknownNameError, match="lokomat"):
         devices.find("locomat")
+    with pytest.raises(FormatError, match=r"walker\.urdf: a robot's description is no device"):
+        devices.find("walker.urdf")
 
 
 @pytest.mark.parametrize("name", ["lokomat", "lopes8", "planar9"])

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
+from exo_pin import viewer
 from exo_pin.cli import main
 from exo_pin.errors import DescriptionError
+from exo_pin.feasible import nearest
 from exo_pin.gait import normative_gait
-from exo_pin.kinematics import poses
+from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.retarget import Target, as_biped, retarget
 from exo_pin.robot import load_urdf
 
@@ -376,3 +378,27 @@ def test_any_axis_of_the_root_may_point_up(up):
     biped = load_biped(text)
     assert biped.legs[0].foot == "left_foot"
     assert biped.legs[0].hip[2] - biped.legs[0].ankle[2] == pytest.approx(0.8, abs=1e-6)
+
+
+def test_a_robot_without_masses_walks_without_a_centre_of_mass():
+    made = viewer.retargeted(retarget(GAIT, load_urdf(Arrangement().urdf(1.0))))
+    assert "com" not in made.arrays
+    assert "Centre of mass" not in [group.title for group in made.facts.groups]
+    assert any("no masses" in note for note in made.facts.notes)
+
+
+def test_what_needs_an_exoskeleton_refuses_another_robot_for_that_reason():
+    robot = load_urdf(Arrangement().urdf(1.0))
+    with pytest.raises(DescriptionError, match=r"no joint 'left_hip_flexion'.*retarget"):
+        robot.from_gait(GAIT)
+    with pytest.raises(DescriptionError, match="no link of its URDF has a mass"):
+        center_of_mass(robot, np.zeros(robot.nq))
+    with pytest.raises(DescriptionError, match="no device of this package"):
+        nearest(robot, np.zeros((1, robot.nq)))
+
+
+def test_legs_of_two_joints_are_refused_for_their_number():
+    both = {"hip_yaw": (0.0, 0.0), "hip_roll": (0.0, 0.0)}
+    robot = load_urdf(Arrangement(ankle=("roll",), ranges=both | {"ankle_roll": (0.0, 0.0)}).urdf(1.0))
+    with pytest.raises(DescriptionError, match="3 moving joints or more"):
+        as_biped(Target(robot.name, ""), robot)

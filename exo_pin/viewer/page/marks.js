@@ -16,10 +16,13 @@ class Marks {
   }
 
   set(motion, t, at) {
-    for (const node of [this.com, this.ground]) node.visible = true;
-    const [x, y, z] = motion.row("com", at);
-    this.com.position.set(x, y, z);
-    this.ground.position.set(x, y, this.marks.height);
+    const known = "com" in motion.arrays; // a URDF without masses has no centre of mass
+    for (const node of [this.com, this.ground]) node.visible = known;
+    if (known) {
+      const [x, y, z] = motion.row("com", at);
+      this.com.position.set(x, y, z);
+      this.ground.position.set(x, y, this.marks.height);
+    }
     for (const side of ["left", "right"]) this.stage.show(this.marks.contact[side], motion.inStance(side, t));
     if (this.belt) this.belt.position.x = -((this.marks.belt.speed * t) % this.marks.belt.pitch);
   }

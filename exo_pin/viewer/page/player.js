@@ -71,6 +71,7 @@ class Player {
     );
     this.part("dotted-title").textContent = header.compared;
     this.part("contact-title").textContent = header.contact;
+    this.part("com-key").hidden = !("com" in this.motion.arrays);
     this.part("keys").replaceChildren(...header.keys.map(legendEntry));
   }
 

@@ -169,7 +169,10 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         chains=tuple(actor.chain for actor in actors),
         handles=staging.handles,
         plots=joint_plots.groups(staging.tabs),
-        groups=(*_groups(actors, marks), *(() if forces is None else forces.groups)),
+        groups=(
+            *_groups(actors, marks, com=walk.com is not None),
+            *(() if forces is None else forces.groups),
+        ),
         marks=marks,
         forces=None if forces is None else forces.marks,
         keys=(*staging.keys, *(() if forces is None else forces.keys)),
@@ -197,13 +200,13 @@ def _support_notes(walk: PlacedWalk) -> list[str]:
     return notes
 
 
-def _groups(actors: Iterable[Actor], marks: Marks) -> tuple[Group, ...]:
+def _groups(actors: Iterable[Actor], marks: Marks, *, com: bool) -> tuple[Group, ...]:
     soles = tuple(path.rsplit("/", 1)[0] for path in marks.contact.values())
     groups = [
         *(actor.group for actor in actors),
         Group("Foot contact", soles),
         Group("Foot paths", (f"{ROOT}/traces",)),
-        Group("Centre of mass", (f"{ROOT}/marks",)),
+        *([Group("Centre of mass", (f"{ROOT}/marks",))] if com else []),
     ]
     return tuple(groups if marks.belt is None else [*groups, Group("Treadmill", (f"{ROOT}/treadmill",))])
 
@@ -211,7 +214,9 @@ def _groups(actors: Iterable[Actor], marks: Marks) -> tuple[Group, ...]:
 def _arrays(
     walk: PlacedWalk, actors: Iterable[Actor], curves: Mapping[str, Array]
 ) -> dict[str, NDArray[np.floating[Any]]]:
-    arrays = {"time": walk.time, "com": walk.com, **curves}
+    arrays = {"time": walk.time, **curves}
+    if walk.com is not None:
+        arrays["com"] = walk.com
     for actor in actors:
         arrays |= actor.arrays
     return {name: _narrow(name, rows) for name, rows in arrays.items()}

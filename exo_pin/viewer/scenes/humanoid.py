@@ -13,6 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import shortened
 from exo_pin.ground import PlacedWalk, aligned, alignment_note, place, transformed
 from exo_pin.kinematics import center_of_mass, poses
+from exo_pin.kinematics.center_of_mass import has_mass
 from exo_pin.retarget import Biped, Retargeted, retarget
 from exo_pin.viewer.drawing_commands import Material
 from exo_pin.viewer.meshes.urdf_meshes import Meshes, ThinnedFiles
@@ -87,7 +88,7 @@ def _placed(result: Retargeted, feet: tuple[Sole, Sole], options: SceneOptions) 
     for k, sole in enumerate(feet):
         corners[:, k, :, :3, 3] = sole.corners @ np.swapaxes(T[:, k, :3, :3], -1, -2) + T[:, k, None, :3, 3]
     T_root = np.concatenate([T, corners.reshape(len(T), 8, 4, 4)], axis=1)
-    com = center_of_mass(biped.robot, result.q).position
+    com = center_of_mass(biped.robot, result.q).position if has_mass(biped.robot) else None
     q = biped.robot.angles(result.q)
     return place(result.gait, q, result.base, T_root, com, options.support, "The pelvis")
 
@@ -163,6 +164,7 @@ def _notes(result: Retargeted, meshes: Meshes, tree: Linkage) -> list[str]:
         "Dashed: the person's angles joint by joint.",
         target.remarks,
         *(f"{note[:1].upper()}{note[1:]}." for note in result.notes),
+        "" if has_mass(biped.robot) else "Its URDF states no masses: its centre of mass is not known.",
         f"Its meshes: {target.licence}, thinned." if target.licence and meshes.triangles else "",
     ]
     if tree.skipped:

@@ -30,7 +30,8 @@ def pelvis(walk: PlacedWalk) -> Tab:
     """
     columns = _attitude(walk.base[:, :3, :3])
     units, signs = dict.fromkeys(columns, DEGREES), dict(zip(columns, _TURNS, strict=True))
-    for name, path in (("pelvis", walk.base[:, :3, 3]), ("centre_of_mass", walk.com)):
+    paths = {"pelvis": walk.base[:, :3, 3]} | ({} if walk.com is None else {"centre_of_mass": walk.com})
+    for name, path in paths.items():
         for axis, way, sign in (
             (2, "height", ""),
             (1, "sideways", "to the left"),
