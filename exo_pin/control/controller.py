@@ -41,6 +41,10 @@ class Controller(Protocol):
 
     A controller may have `reset(robot, gait)` too, which is called once before a run: with the robot that it
     believes to control (the model, not the simulated one with its errors) and the walk.
+
+    A controller may have `sense(pose, velocity)` too, which is called before each call with the state of the
+    pelvis: pose (4, 4), and velocity (6,) linear, then angular, world axes [m/s, rad/s]. It is exact, as a
+    perfect inertial sensor with odometry would give it; a controller that keeps a balance needs it.
     """
 
     def __call__(self, time: float, q: Array, dq: Array, reference: Reference) -> Array:

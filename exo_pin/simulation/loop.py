@@ -15,7 +15,7 @@ from exo_pin.control import Controller, Patient, Reference, raised_where
 from exo_pin.control.users_code import LONGEST_ANSWER, time_limit
 from exo_pin.errors import DescriptionError, ExoPinError
 from exo_pin.robot import Robot
-from exo_pin.robot.floating_base import base_coordinates
+from exo_pin.robot.floating_base import base_coordinates, base_poses
 from exo_pin.simulation.pelvis_support import PelvisSupport
 from exo_pin.simulation.plant import Joints
 from exo_pin.simulation.recording import Columns, Recording
@@ -93,6 +93,7 @@ class Loop:
         import mujoco
 
         self._model, self._walk, self._controller = model, walk, controller
+        self._sense = getattr(controller, "sense", None)
         self._joints, self._patient = joints, patient
         self._support = SupportForce(support, walk, unloading, pushes)
         self._every, self._delay = every, delay
@@ -178,6 +179,8 @@ class Loop:
         """The controller's answer, checked. It gets copies of everything, which it may change."""
         time, now = self._times[k], next(self._references)
         try:
+            if self._sense is not None:
+                self._sense(*self._pelvis())
             tau = self._controller(time, self._joints.measured(self._q), self._dq.copy(), now)
         except ExoPinError:
             raise
@@ -193,6 +196,13 @@ class Loop:
                 f"{len(JOINTS)} finite torques [N m] are accepted"
             )
         return answer
+
+    def _pelvis(self) -> tuple[Array, Array]:
+        """Pose (4, 4) and velocity (6,) of the pelvis, world axes."""
+        x, y, z, w, i, j, k = self._place[:7]
+        T, rates = base_poses(np.array([x, y, z, i, j, k, w])), np.array(self._rates[:_FREE])
+        rates[3:] = T[:3, :3] @ rates[3:]
+        return T, rates
 
     def _apply(self, k: int) -> None:
         """Torques of motors, person and friction, and the support, as generalised forces."""
