@@ -41,7 +41,8 @@ def foot_paths(walk: Footsteps, parts: list[PhaseSamples], soles: Soles, pitch: 
         pitch: Largest angle of the swinging foot, toes down [rad].
     """
     n = parts[-1].samples.stop
-    ground, lift = np.empty((n, 2, 3)), np.zeros((n, 2))  # x, y, heading; 0 .. 1
+    ground = np.empty((n, 2, 3))  # x, y, heading
+    lift, tilt = np.zeros((n, 2)), np.zeros((n, 2))  # 0 .. 1
     place = [_numbers(foot) for foot in walk.start]
     for part in parts:
         ground[part.samples] = place
@@ -51,9 +52,10 @@ def foot_paths(walk: Footsteps, parts: list[PhaseSamples], soles: Soles, pitch: 
             goal = _numbers(step)
             goal[2] = place[k][2] + math.remainder(goal[2] - place[k][2], 2.0 * math.pi)
             ground[part.samples, k] = place[k] + minimum_jerk(part.passed)[:, None] * (goal - place[k])
-            lift[part.samples, k] = _bump(part.passed)
+            lift[part.samples, k] = _plateau(part.passed)
+            tilt[part.samples, k] = _bump(part.passed)
             place[k] = goal
-    return FootPaths(_poses(ground, walk.clearance * lift, pitch * lift, soles), ground[..., 2])
+    return FootPaths(_poses(ground, walk.clearance * lift, pitch * tilt, soles), ground[..., 2])
 
 
 def minimum_jerk(s: Array) -> Array:
@@ -62,8 +64,13 @@ def minimum_jerk(s: Array) -> Array:
 
 
 def _bump(s: Array) -> Array:
-    """From 0 to 1 and back, without speed and acceleration at both ends."""
-    return np.asarray(64.0 * (s * (1.0 - s)) ** 3)
+    """From 0 to 1 and back, without speed at both ends."""
+    return np.asarray(16.0 * (s * (1.0 - s)) ** 2)
+
+
+def _plateau(s: Array) -> Array:
+    """From 0 to 1 and back, half again as quick: a body that sinks by 1 mm scuffs in 2 % of a swing."""
+    return np.asarray((1.0 - np.abs(2.0 * s - 1.0) ** 2.5) ** 2)
 
 
 def _numbers(foot: Footstep) -> Array:
