@@ -18,12 +18,17 @@ if TYPE_CHECKING:
 _OPENSIM = (".mot", ".sto")
 
 
-def add(parser: argparse.ArgumentParser) -> None:
-    """`--torques FILE`, or `own`."""
+def add(parser: argparse.ArgumentParser, purpose: str = "for a further tab of curves") -> None:
+    """`--torques FILE`, or `own`.
+
+    Args:
+        parser: Of the command.
+        purpose: What the torques are for, in its help.
+    """
     parser.add_argument(
         "--torques",
         metavar="FILE",
-        help="joint torques of the walk, for a further tab of curves: own (by inverse dynamics, as `exo-pin "
+        help=f"joint torques of the walk, {purpose}: own (by inverse dynamics, as `exo-pin "
         "torques` has it), OpenSim's inverse dynamics (.sto), Plug-in Gait's moments (.c3d), or a .csv with "
         "time_s and columns like left_knee_flexion_torque_nm",
     )

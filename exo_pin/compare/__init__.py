@@ -4,6 +4,7 @@ from exo_pin.compare.best_motion import DeviceMotion, best, dressed, projected, 
 from exo_pin.compare.comparison import Comparison, compare
 from exo_pin.compare.joint_choices import JointChoices, compare_joints
 from exo_pin.compare.loss import Loss, Spread
+from exo_pin.compare.motor_demand import MotorDemand
 from exo_pin.compare.recorded_walk import Conditions, Walk, walk
 from exo_pin.gait.phases import PHASES
 
@@ -14,6 +15,7 @@ __all__ = [
     "DeviceMotion",
     "JointChoices",
     "Loss",
+    "MotorDemand",
     "Spread",
     "Walk",
     "best",

@@ -13,11 +13,12 @@ from exo_pin.anatomy import Body
 from exo_pin.arguments import several
 from exo_pin.compare.best_motion import best, projected, robot_for
 from exo_pin.compare.loss import Loss, clearance, step_width
+from exo_pin.compare.motor_demand import MotorDemand, motor_demand
 from exo_pin.compare.recorded_walk import DEFAULT_CONDITIONS, Conditions, Walk, walk
 from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.files import json_number
-from exo_pin.gait import Gait
+from exo_pin.gait import Gait, Torques
 from exo_pin.kinematics import with_events
 
 
@@ -30,15 +31,22 @@ class Comparison:
         conditions: Who moves the pelvis, and whether passive joints are held.
         best: The best motions, least loss first.
         projected: The plain copies, in the same order of devices.
+        motors: What the walk's torques require of the motors, in the same order; None without torques.
+        torques: Where these torques come from, in words.
     """
 
     walk: Walk
     conditions: Conditions
     best: tuple[Loss, ...]
     projected: tuple[Loss, ...]
+    motors: tuple[MotorDemand, ...] | None = None
+    torques: str = ""
 
     def facts(self) -> dict[str, Any]:
-        """Plain values for JSON."""
+        """Plain values for JSON; `motors` and `torques` where torques are given."""
+        given: dict[str, Any] = {}
+        if self.motors is not None:
+            given = {"motors": [motor.facts() for motor in self.motors], "torques": self.torques}
         body, gait = self.walk.robot.body, self.walk.gait
         return {
             "gait": {"source": gait.source, "samples": len(gait), "duration_s": gait.duration},
@@ -50,6 +58,7 @@ class Comparison:
             },
             "best": [loss.facts() for loss in self.best],
             "projected": [loss.facts() for loss in self.projected],
+            **given,
         }
 
 
@@ -59,6 +68,7 @@ def compare(
     body: Body | None = None,
     *,
     conditions: Conditions = DEFAULT_CONDITIONS,
+    torques: Torques | None = None,
 ) -> Comparison:
     """Compare devices under the same walk.
 
@@ -67,8 +77,10 @@ def compare(
         devices: Names, device files or records; all known ones if left out.
         body: Who wears them; `Body.from_stature()` if left out.
         conditions: Who moves the pelvis, and whether passive joints are held.
+        torques: Joint torques of the walk, against which the motors are judged; not judged if left out.
 
     Raises:
+        GaitError: The torques are at other times than the walk.
         UnknownNameError: A device is unknown.
         DescriptionError: `devices` is no sequence.
     """
@@ -82,6 +94,9 @@ def compare(
         done = (best(recorded, robot, conditions), projected(recorded, robot, conditions))
         pairs.append(tuple(Loss(device, recorded, motion) for motion in done))
     pairs.sort(key=lambda pair: (round(pair[0].rms, 9), pair[0].device.motors))
-    return Comparison(
-        recorded, conditions, tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
-    )
+    copies = tuple(pair[1] for pair in pairs)
+    motors = None
+    if torques is not None:
+        motors = tuple(motor_demand(copy.device, copy.motion, torques) for copy in copies)
+    source = "" if torques is None else torques.source
+    return Comparison(recorded, conditions, tuple(pair[0] for pair in pairs), copies, motors, source)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from exo_pin.compare.comparison import Comparison
 from exo_pin.compare.joint_choices import JointChoices
 from exo_pin.compare.loss import Loss
+from exo_pin.compare.motor_demand import MotorDemand
 from exo_pin.safe import spreadsheet_cells
 
 LOSS_COLUMNS = (
@@ -25,6 +26,9 @@ LOSS_COLUMNS = (
 )
 """Headings. Sole: of the soles' corners; foot: of the foot frames; copy: the sole in the plain copy."""
 
+MOTOR_COLUMNS = ("device", "torque %", "hardest joint", "peak N m", "limit N m", "peak power W", "too weak")
+"""Headings. Torque: the largest part of a motor's effort that is used; power: the largest of any motor."""
+
 PARETO_COLUMNS = ("motors", "sole rms mm", "driven, each leg")
 MOVEMENT_COLUMNS = ("movement", "locked alone: sole rms mm", "added as", "then left mm")
 
@@ -40,6 +44,21 @@ def phase_rows(comparison: Comparison) -> list[list[str]]:
         [loss.device.name, *(_fixed(1e3 * value) for value in loss.by_phase.values())]
         for loss in comparison.best
     ]
+
+
+def motor_rows(comparison: Comparison) -> list[list[str]]:
+    """Torque and power of each device's motors, as `MOTOR_COLUMNS`; none without torques."""
+    return [_motor_row(motor) for motor in comparison.motors or ()]
+
+
+def _motor_row(motor: MotorDemand) -> list[str]:
+    hardest = motor.hardest
+    if hardest is None or hardest.torque is None:
+        return [motor.device.name, *["-"] * (len(MOTOR_COLUMNS) - 1)]
+    torque = hardest.torque
+    numbers = [f"{x:.0f}" for x in (torque.peak, torque.available, motor.peak_power)]
+    words = "; ".join(motor.failures) or "none"
+    return [motor.device.name, f"{100 * torque.use:.0f}", hardest.joint.replace("_", " "), *numbers, words]
 
 
 def front_rows(choices: JointChoices) -> list[list[str]]:

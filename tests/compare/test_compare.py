@@ -26,7 +26,7 @@ from exo_pin.compare.recorded_walk import corners
 from exo_pin.devices import DEVICES, find, subset
 from exo_pin.errors import UnknownNameError
 from exo_pin.formats import load_gait
-from exo_pin.gait import Gait, normative_gait
+from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.gait.phases import masks, percent, toe_off
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
@@ -317,3 +317,47 @@ def test_angle_change_and_ranges_are_those_of_the_motion(held):
     knee = loss.ranges["left_knee_flexion"]
     assert (knee.lowest, knee.highest) == (mine[0].min(), mine[0].max())
     assert knee.samples_at_limit == (mine[0] < 1e-9).sum()
+
+
+@pytest.fixture(scope="module")
+def strong_walk():
+    """A walk of which the hip needs 166 N m, and nothing else much."""
+    gait = normative_gait().resampled(40)
+    tau = np.full((len(gait), len(JOINTS)), 5.0)
+    tau[7, JOINTS.index("left_hip_flexion")] = -166.0
+    tau[:, JOINTS.index("right_ankle_inversion")] = np.nan
+    return gait, Torques(gait.time, tau, source="a test")
+
+
+def test_motors_are_judged_by_the_torques_of_the_walk_and_their_power_by_the_motion(strong_walk):
+    gait, torques = strong_walk
+    found = compare(gait, ["exo12", "lokomat"], BODY, torques=torques)
+    assert [m.device for m in found.motors] == [loss.device for loss in found.best]
+    for motor in found.motors:
+        assert motor.failures == ("left hip flexion torque: 166 of 150 N m",)
+        assert motor.hardest.joint == "left_hip_flexion"
+        speed = abs(gait.dq[7, JOINTS.index("left_hip_flexion")])
+        assert motor.peak_power >= 166.0 * speed * 0.9  # a copy's speeds are of its own samples
+        assert {d.joint for d in motor.joints} <= set(motor.device.joints) - {"right_ankle_inversion"}
+    facts = found.facts()
+    assert facts["torques"] == "a test"
+    assert facts["motors"][0]["joints"]["left_hip_flexion"]["torque_use"] == pytest.approx(166 / 150)
+    assert not facts["motors"][0]["ok"]
+
+
+def test_without_torques_a_comparison_says_nothing_of_motors(held):
+    assert held.motors is None
+    assert not {"motors", "torques"} & set(held.facts())
+    assert comparison_table.motor_rows(held) == []
+
+
+def test_the_command_judges_the_walk_s_own_torques(capsys, tmp_path):
+    path = tmp_path / "table.csv"
+    words = ["compare", "very_fast", "--devices", "exo12", "planar5", "--torques", "own", "-o", str(path)]
+    assert main(words) == 0
+    out = capsys.readouterr().out
+    assert "ground reaction predicted" in out
+    assert "NOT OK exo12, right hip flexion torque: 189 of 150 N m" in out
+    head, *rows = (line.split(",") for line in path.read_text().splitlines())
+    assert head[-1] == "too_weak"
+    assert all("right hip flexion torque: 189 of 150 N m" in row[-1] for row in rows)

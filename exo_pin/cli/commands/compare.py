@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exo_pin.cli import measures, options, show
+from exo_pin.cli import measures, options, show, torque_options
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -24,6 +24,7 @@ _EXAMPLES = """examples:
   exo-pin compare --passive released             passive joints move as it suits the feet
   exo-pin compare -o report.html                 one page: the motion behind every number, the five speeds
   exo-pin compare -o table.md                    also .csv and .json
+  exo-pin compare very_fast --torques own        the torque and power of every motor as well
 
 For every device: the best motion towards the recorded feet (least squares over the corners of the soles,
 within the joints' ranges, speeds and accelerations), and the plain copy of its joints. docs/devices.md
@@ -51,6 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default="held",
         help="passive joints: held at zero (default), or moving freely",
     )
+    torque_options.add(parser, "judged against the motors of every device")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("-o", "--output", metavar="FILE", help="write .html, .md, .csv or .json as well")
     parser.add_argument(
@@ -69,9 +71,9 @@ def run(args: argparse.Namespace) -> int:
     chosen = [devices.find(name) for name in measures.listed(args.devices or devices.DEVICES)]
     _check_output(args.output)
     body = options.body_from(args)
-    comparison = compare(
-        options.gait_from(args, body), chosen, body, conditions=Conditions(args.pelvis, args.passive)
-    )
+    gait, conditions = options.gait_from(args, body), Conditions(args.pelvis, args.passive)
+    torques = torque_options.given(args, body, gait)
+    comparison = compare(gait, chosen, body, conditions=conditions, torques=torques)
     if args.json:
         show.as_json(comparison.facts())
     else:
@@ -91,6 +93,14 @@ def _print(comparison: Comparison, name: str) -> None:
     if comparison.walk.gait.events:
         columns = ("sole rms mm", *PHASES)
         show.table("By phase of the foot's cycle", columns, comparison_table.phase_rows(comparison))
+    if comparison.motors is not None:
+        heads = comparison_table.MOTOR_COLUMNS[:-1]
+        rows = [row[:-1] for row in comparison_table.motor_rows(comparison)]
+        show.table("Torque and power of the motors (joints copy the walk)", heads, rows)
+        for motor in comparison.motors:
+            for failure in motor.failures:
+                print(f"NOT OK {show.plain(motor.device.name)}, {failure}")
+        print(f"torques: {show.plain(comparison.torques)}")
 
 
 def _check_output(output: str | None) -> None:
@@ -106,13 +116,23 @@ def _markdown(comparison: Comparison, _: argparse.Namespace) -> str:
         comparison_table.markdown(comparison_table.LOSS_COLUMNS, comparison_table.rows(comparison)),
         comparison_table.markdown(("sole rms mm", *PHASES), comparison_table.phase_rows(comparison)),
     ]
+    if comparison.motors is not None:
+        rows = comparison_table.motor_rows(comparison)
+        parts.append(comparison_table.markdown(comparison_table.MOTOR_COLUMNS, rows))
+        parts.append(f"Torques: {comparison.torques}\n")
     return "\n".join(parts)
 
 
 def _csv(comparison: Comparison, _: argparse.Namespace) -> str:
     from exo_pin.compare import comparison_table
 
-    return comparison_table.csv(comparison_table.LOSS_COLUMNS, comparison_table.rows(comparison))
+    columns: tuple[str, ...] = comparison_table.LOSS_COLUMNS
+    rows = comparison_table.rows(comparison)
+    if comparison.motors is not None:
+        columns += comparison_table.MOTOR_COLUMNS[1:]
+        motors = comparison_table.motor_rows(comparison)
+        rows = [row + motor[1:] for row, motor in zip(rows, motors, strict=True)]
+    return comparison_table.csv(columns, rows)
 
 
 def _json(comparison: Comparison, _: argparse.Namespace) -> str:

@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gap", type=float, default=0.0, metavar="MM", help="distance that parts must keep [mm] (default: 0)"
     )
-    torque_options.add(parser)
+    torque_options.add(parser, "judged against the actuators")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
 
