@@ -23,6 +23,7 @@ from exo_pin import (
     retarget,
     simulation,
     sizing,
+    walking,
 )
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, Body
 from exo_pin.formats import Markers, ReadOptions
@@ -30,6 +31,7 @@ from exo_pin.gait import Gait, Number, StrideEstimate, Torques, normative_gait
 from exo_pin.markers.marker_sets import SETS
 
 _SAMPLES = 18
+_TRIANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
 SIZING = Path(sizing.__file__).parent
 
 
@@ -189,6 +191,19 @@ class Examples:
         return sizing.joint_loads(self.dynamics, 1.1)["left_hip_flexion"]
 
     @functools.cached_property
+    def footsteps(self) -> walking.Footsteps:
+        return walking.footsteps(3, 0.2)
+
+    @functools.cached_property
+    def footstep_file(self) -> Path:
+        walking.save_footsteps(self.footsteps, self.folder / "steps.csv")
+        return self.folder / "steps.csv"
+
+    @functools.cached_property
+    def planned(self) -> walking.Plan:
+        return walking.plan_walk(self.robot, self.footsteps, rate=50.0)
+
+    @functools.cached_property
     def run(self) -> simulation.Run:
         return simulation.simulate(self.robot, self.gait, cycles=1, timestep=5e-3)
 
@@ -329,6 +344,58 @@ _OWN: Mapping[str, Any] = {
     "simulation.Plant.noise": lambda e: 1e-3,
     "simulation.Plant.rate": lambda e: 500.0,
     "simulation.Plant.delay": lambda e: 0.01,
+    "walking.Footstep.x": lambda e: 0.1,
+    "walking.Footstep.y": lambda e: 0.1,
+    "walking.Footstep.heading": lambda e: 0.1,
+    "walking.Footsteps.start": lambda e: e.footsteps.start,
+    "walking.Footsteps.steps": lambda e: e.footsteps.steps,
+    "walking.Footsteps.step_time": lambda e: 0.8,
+    "walking.Footsteps.double_support": lambda e: 0.2,
+    "walking.Footsteps.clearance": lambda e: 0.05,
+    "walking.Footsteps.shortened.factor": lambda e: 0.5,
+    "walking.Preview.dt": lambda e: 0.02,
+    "walking.Preview.height": lambda e: 0.9,
+    "walking.Preview.horizon": lambda e: 0.2,
+    "walking.Preview.tracking": lambda e: 1.0,
+    "walking.Preview.jerk": lambda e: 1e-6,
+    "walking.Preview.com.zmp": lambda e: np.ones((_SAMPLES, 2)),
+    "walking.com_of_zmp.zmp": lambda e: np.ones((_SAMPLES, 2)),
+    "walking.com_of_zmp.dt": lambda e: 0.02,
+    "walking.convex_hull.points": lambda e: _TRIANGLE,
+    "walking.divergent_component.position": lambda e: np.ones((3, 2)),
+    "walking.divergent_component.velocity": lambda e: np.ones((3, 2)),
+    "walking.fall.position": lambda e: np.ones(2),
+    "walking.fall.velocity": lambda e: np.ones(2),
+    "walking.fall.zmp": lambda e: np.zeros(2),
+    "walking.fall.time": lambda e: np.ones(3),
+    "walking.footsteps.start": lambda e: "left",
+    "walking.footsteps.steps": lambda e: 2,
+    "walking.footsteps.length": lambda e: 0.2,
+    "walking.footsteps.width": lambda e: 0.2,
+    "walking.footsteps.turn": lambda e: 0.1,
+    "walking.footsteps.step_time": lambda e: 0.8,
+    "walking.footsteps.double_support": lambda e: 0.2,
+    "walking.footsteps.clearance": lambda e: 0.05,
+    "walking.load_footsteps.path": lambda e: e.footstep_file,
+    "walking.load_footsteps.step_time": lambda e: 0.8,
+    "walking.load_footsteps.double_support": lambda e: 0.2,
+    "walking.load_footsteps.clearance": lambda e: 0.05,
+    "walking.margin.polygon": lambda e: _TRIANGLE,
+    "walking.margin.point": lambda e: np.ones((3, 2)),
+    "walking.orbital_energy.position": lambda e: np.ones((3, 2)),
+    "walking.orbital_energy.velocity": lambda e: np.ones((3, 2)),
+    "walking.orbital_energy.zmp": lambda e: np.zeros((3, 2)),
+    "walking.plan_walk.walk": lambda e: e.footsteps,
+    "walking.plan_walk.rate": lambda e: 50.0,
+    "walking.plan_walk.rest": lambda e: 0.5,
+    "walking.plan_walk.pitch": lambda e: 0.3,
+    "walking.plan_walk.passes": lambda e: 1,
+    "walking.recorded_footsteps.gait": lambda e: e.planned.gait,
+    "walking.recorded_footsteps.clearance": lambda e: 0.05,
+    "walking.save_footsteps.walk": lambda e: e.footsteps,
+    "walking.save_footsteps.path": lambda e: e.folder / "written_steps.csv",
+    "walking.zmp_of_com.com": lambda e: np.ones((_SAMPLES, 2)),
+    "walking.zmp_of_com.dt": lambda e: 0.02,
     "simulation.Push.forward": lambda e: 60.0,
     "simulation.Push.left": lambda e: 0.0,
     "simulation.Push.duration": lambda e: 0.1,
@@ -558,6 +625,8 @@ _INSTANCES: Mapping[str, Any] = {
     "Motor": lambda e: sizing.find_motor(e.motor_file),
     "Spring": lambda e: sizing.Spring(100.0, 0.1),
     "StrideEstimate": lambda e: e.stride,
+    "Footsteps": lambda e: e.footsteps,
+    "Preview": lambda e: walking.Preview(0.02, 0.9, horizon=0.2),
     "WorstCase": lambda e: sizing.worst_cases("exo12", people=(e.body,))[0],
     "Torques": lambda e: e.torques,
 }

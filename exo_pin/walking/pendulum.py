@@ -16,6 +16,9 @@ from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.physics import GRAVITY
 
+_HIGHEST = 1000.0  # centre of mass [m]
+_SHORTEST, _LONGEST = 1e-6, 10.0  # time from sample to sample [s]
+
 
 def com_of_zmp(zmp: npt.ArrayLike, dt: float, height: float) -> Array:
     """The one path of the centre of mass that has this ZMP and no acceleration at its two ends.
@@ -24,18 +27,18 @@ def com_of_zmp(zmp: npt.ArrayLike, dt: float, height: float) -> Array:
     forth and back (Thomas; as Kagami et al., Auton. Robots 12, 2002, for patterns of humanoids).
 
     Args:
-        zmp: `(n, k)` zero-moment point, n at least 2 [m].
+        zmp: `(n, 2)` zero-moment point, n at least 2 [m].
         dt: Time from sample to sample [s].
         height: Of the centre of mass above the ground [m].
 
     Returns:
-        `(n, k)` centre of mass [m].
+        `(n, 2)` centre of mass [m].
 
     Raises:
         DescriptionError: A shape does not fit, or a number is not finite.
     """
-    p = real("zmp", zmp, ("n", "k"))
-    a = _constant(height) ** 2 / number("dt", dt, above=0.0) ** 2
+    p = _path("zmp", zmp)
+    a = _constant(height) ** 2 / _time_step(dt) ** 2
     return np.stack([_solved(column, a) for column in p.T.tolist()], axis=1) if len(p) > 2 else p.copy()
 
 
@@ -46,7 +49,7 @@ def resting_zmp(zmp: npt.ArrayLike, dt: float, height: float, rest: float) -> Ar
     have to be under way at the first sample, and still be at the last.
 
     Args:
-        zmp: `(n, k)` zero-moment point, at rest at both ends [m].
+        zmp: `(n, 2)` zero-moment point, at rest at both ends [m].
         dt: Time from sample to sample [s].
         height: Of the centre of mass above the ground [m].
         rest: How long each detour may take [s].
@@ -54,7 +57,7 @@ def resting_zmp(zmp: npt.ArrayLike, dt: float, height: float, rest: float) -> Ar
     Raises:
         DescriptionError: A shape does not fit, a number is not finite, or the rests fill the path.
     """
-    p, count = real("zmp", zmp, ("n", "k")), round(number("rest", rest, above=0.0) / dt)
+    p, count = _path("zmp", zmp), round(number("rest", rest, above=0.0, most=1e4) / _time_step(dt))
     if not 2 < count < len(p) / 2:
         raise DescriptionError(
             f"rest is {rest:g} s; more than two samples and less than half the path is accepted"
@@ -71,16 +74,16 @@ def zmp_of_com(com: npt.ArrayLike, dt: float, height: float) -> Array:
     """The ZMP of a path of the centre of mass, by second differences; without acceleration at the two ends.
 
     Args:
-        com: `(n, k)` centre of mass, n at least 2 [m].
+        com: `(n, 2)` centre of mass, n at least 2 [m].
         dt: Time from sample to sample [s].
         height: Of the centre of mass above the ground [m].
 
     Raises:
         DescriptionError: A shape does not fit, or a number is not finite.
     """
-    x = real("com", com, ("n", "k"))
+    x = _path("com", com)
     p = x.copy()
-    p[1:-1] -= _constant(height) ** 2 / number("dt", dt, above=0.0) ** 2 * np.diff(x, 2, axis=0)
+    p[1:-1] -= _constant(height) ** 2 / _time_step(dt) ** 2 * np.diff(x, 2, axis=0)
     return p
 
 
@@ -91,14 +94,14 @@ def divergent_component(position: npt.ArrayLike, velocity: npt.ArrayLike, height
     al., Proc. Humanoids 2006).
 
     Args:
-        position: `(..., 2)` of the centre of mass over the ground [m].
-        velocity: `(..., 2)` of it [m/s].
+        position: `(n, 2)` of the centre of mass over the ground [m].
+        velocity: `(n, 2)` of it [m/s].
         height: Of it above the ground [m].
 
     Raises:
         DescriptionError: A shape does not fit, or a number is not finite.
     """
-    x, v = real("position", position, (..., 2)), real("velocity", velocity, (..., 2))
+    x, v = _states(position, velocity)
     return x + v * _constant(height)
 
 
@@ -110,16 +113,16 @@ def orbital_energy(
     Positive: the pendulum passes over its foot; negative: it turns back before.
 
     Args:
-        position: `(..., 2)` of the centre of mass over the ground [m].
-        velocity: `(..., 2)` of it [m/s].
-        zmp: `(..., 2)` zero-moment point [m].
+        position: `(n, 2)` of the centre of mass over the ground [m].
+        velocity: `(n, 2)` of it [m/s].
+        zmp: `(n, 2)` zero-moment point [m].
         height: Of the centre of mass above the ground [m].
 
     Raises:
         DescriptionError: A shape does not fit, or a number is not finite.
     """
-    x, v = real("position", position, (..., 2)), real("velocity", velocity, (..., 2))
-    arm = x - real("zmp", zmp, (..., 2))
+    x, v = _states(position, velocity)
+    arm = x - real("zmp", zmp, x.shape)
     return np.asarray(0.5 * (v**2 - (arm / _constant(height)) ** 2))
 
 
@@ -159,13 +162,29 @@ def time_constant(height: float) -> float:
     return _constant(height)
 
 
+def _path(name: str, values: npt.ArrayLike) -> Array:
+    path = real(name, values, ("n", 2))
+    if len(path) < 2:
+        raise DescriptionError(f"{name} has {len(path)} samples; at least 2 are accepted")
+    return path
+
+
+def _states(position: npt.ArrayLike, velocity: npt.ArrayLike) -> tuple[Array, Array]:
+    x = real("position", position, ("n", 2))
+    return x, real("velocity", velocity, x.shape)
+
+
+def _time_step(dt: float) -> float:
+    return number("dt", dt, least=_SHORTEST, most=_LONGEST)
+
+
 def _end_steps(com: Array) -> Array:
-    """`(2, k)` how far the centre of mass moves in the first and in the last time step [m]."""
+    """`(2, 2)` how far the centre of mass moves in the first and in the last time step [m]."""
     return np.stack([com[1] - com[0], com[-1] - com[-2]])
 
 
 def _constant(height: float) -> float:
-    return math.sqrt(number("height", height, above=0.0) / GRAVITY)
+    return math.sqrt(number("height", height, above=0.0, most=_HIGHEST) / GRAVITY)
 
 
 def _solved(p: list[float], a: float) -> list[float]:

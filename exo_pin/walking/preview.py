@@ -83,12 +83,14 @@ class Preview:
         return feedback, ahead
 
     def com(self, zmp: npt.ArrayLike) -> Array:
-        """`(n, k)` centre of mass that follows a ZMP `(n, k)` from rest [m], seeing one horizon ahead.
+        """`(n, 2)` centre of mass that follows a ZMP `(n, 2)` from rest [m], seeing one horizon ahead.
 
         Raises:
             DescriptionError: The shape does not fit, or a number is not finite.
         """
-        wanted = real("zmp", zmp, ("n", "k"))
+        wanted = real("zmp", zmp, ("n", 2))
+        if not len(wanted):
+            raise DescriptionError("zmp is empty; at least one sample is accepted")
         A, B = self.system
         feedback, ahead = self.gains
         n = len(ahead)

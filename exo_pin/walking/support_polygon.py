@@ -43,6 +43,8 @@ def margin(polygon: npt.ArrayLike, point: npt.ArrayLike) -> Array:
         DescriptionError: A shape does not fit, or a number is not finite.
     """
     corners, p = real("polygon", polygon, ("k", 2)), real("point", point, ("n", 2))
+    if len(corners) < 3:
+        raise DescriptionError(f"polygon has {len(corners)} corners; at least 3 are accepted")
     edge = np.roll(corners, -1, axis=0) - corners
     inward = np.stack([-edge[:, 1], edge[:, 0]], axis=1) / np.linalg.norm(edge, axis=1)[:, None]
     away = np.einsum("nkj,kj->nk", p[:, None] - corners, inward)

@@ -49,7 +49,7 @@ def test_the_end_of_the_walk_is_at_rest_over_its_foot():
 
 def test_a_pendulum_whose_foot_is_put_at_the_capture_point_stops_above_it():
     x, v = np.array([0.1, -0.02]), np.array([0.5, 0.1])
-    foot = divergent_component(x, v, HEIGHT)
+    foot = divergent_component([x], [v], HEIGHT)[0]
     # e^-8 of the distance is left, and e^8 of the rounding
     assert np.abs(fall(x, v, foot, HEIGHT, [8 * time_constant(HEIGHT)])[0] - foot).max() < 1e-3
 
@@ -58,8 +58,8 @@ def test_the_divergent_component_leaves_the_zmp_exponentially():
     x, v, p = np.array([0.1, 0.0]), np.array([0.2, 0.3]), np.array([0.05, 0.1])
     t, step = 0.4, 1e-6
     now, before, after = fall(x, v, p, HEIGHT, [t, t - step, t + step])
-    later = divergent_component(now, (after - before) / (2 * step), HEIGHT)
-    expected = p + (divergent_component(x, v, HEIGHT) - p) * np.exp(t / time_constant(HEIGHT))
+    later = divergent_component([now], [(after - before) / (2 * step)], HEIGHT)[0]
+    expected = p + (divergent_component([x], [v], HEIGHT)[0] - p) * np.exp(t / time_constant(HEIGHT))
     assert np.allclose(later, expected, atol=1e-8)
 
 
