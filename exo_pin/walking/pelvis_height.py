@@ -18,7 +18,7 @@ _DROPS = np.linspace(0.01, 0.14, 27)
 
 _KNEE_ROOM = 1.0 / 8.0
 """What a degree of room counts of a knee: the straighter it is, the faster it has to move (as 1 / sin). With
-it knees stay bent by 20 degrees in steps of 0.3 m, and hips need 80 N m instead of 120 (a choice)."""
+it knees stay bent by 19 degrees in steps of 0.3 m, and hips need 97 N m instead of 126 (a choice)."""
 
 
 class LegRoom(NamedTuple):
