@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 from exo_pin.cli import show
-from exo_pin.errors import GaitError
 
 if TYPE_CHECKING:
-    from exo_pin.gait import Torques
     from exo_pin.simulation import Run
     from exo_pin.viewer import Scene
 
@@ -20,7 +17,7 @@ _RIGID = (
 
 
 def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
-    """The run with the motors' torques beside a ghost; beside a second run the walk to follow is dashed.
+    """The run with its forces beside a ghost; beside a second run the walk to follow is dashed.
 
     Args:
         run: What was simulated.
@@ -31,13 +28,15 @@ def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
         GaitError: A run ended at once.
     """
     from exo_pin import simulation, viewer
+    from exo_pin.simulation.run_gaits import RATE
 
     walk, plan = simulation.walked(run), simulation.wanted(run)
     options = viewer.SceneOptions(
         title=f"{what}, simulated: {run.verdict.word} - exo_pin",
         support="still",  # the simulated pelvis is shown where it was
         compare=plan if other is None else simulation.walked(other),
-        compare_title="the walk to follow" if other is None else _name(other),
+        compare_title="the walk to follow" if other is None else f"{_name(other)}: {other.verdict.word}",
+        beside=other is not None,
         notes=(*_notes(run), *(() if other is None else _notes(other)), _RIGID),
     )
     return viewer.exoskeleton_scene(
@@ -46,7 +45,7 @@ def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
         options,
         reference=None if other is None else plan,  # else the ghost's curves are the same
         reference_title="the walk to follow",
-        torques=_torques(run),
+        kinetics=viewer.Kinetics.of_run(run, RATE),
     )
 
 
@@ -57,14 +56,3 @@ def _name(run: Run) -> str:
 
 def _notes(run: Run) -> tuple[str, ...]:
     return (f"{_name(run)}: {run.verdict.word}: {run.verdict.why}.",)
-
-
-def _torques(run: Run) -> Torques | None:
-    """The motors' torques; a note and None where they are beyond what a leg bears."""
-    from exo_pin.simulation import motor_torques
-
-    try:
-        return motor_torques(run)
-    except GaitError as error:
-        print(f"note: the page has no torques: {error}", file=sys.stderr)
-        return None

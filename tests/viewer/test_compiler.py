@@ -105,7 +105,7 @@ def test_every_node_that_the_page_moves_is_drawn(scene):
     marks = scene.facts.marks
     for path in (marks.com, marks.ground, *marks.contact.values()):
         assert path in drawn
-    assert any(path.startswith(marks.belt.path) for path in drawn)
+    assert all(any(path.startswith(belt) for path in drawn) for belt in marks.belt.paths)
     for group in scene.facts.groups:
         assert all(any(node.startswith(path) for node in drawn) for path in group.paths)
 

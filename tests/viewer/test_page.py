@@ -30,14 +30,25 @@ def chunks(packed):
     return out
 
 
+def unpacked(spec, data, kind):
+    """Columns of an array: differences whose first bytes come first, summed up."""
+    size = np.dtype(kind).itemsize
+    changes = np.frombuffer(data, np.uint8).reshape(size, -1).T.copy().view(kind)
+    return np.cumsum(changes.reshape(spec["width"], -1), axis=1, dtype=kind)
+
+
 def test_a_bundle_gives_back_header_commands_and_arrays(scene):
     header, *rest = chunks(viewer.bundle(scene))
     facts = json.loads(header)
     assert facts["title"] == scene.title
     assert facts["commands"] == len(scene.commands)
-    arrays = dict(zip([spec["name"] for spec in facts["arrays"]], rest[facts["commands"] :], strict=True))
-    q = np.frombuffer(arrays["q"], "<f4").reshape(-1, 12)
-    assert np.array_equal(q, scene.arrays["q"])
+    found = {spec["name"]: (spec, rest[facts["commands"] + spec["chunk"]]) for spec in facts["arrays"]}
+    assert np.array_equal(unpacked(*found["q"], "<u4").view("<f4").T, scene.arrays["q"])
+    spec, data = found["speeds"]
+    steps = unpacked(spec, data, "<u2").view("<i2").T
+    speeds = np.array(spec["middle"]) + np.where(steps == -32768, np.nan, steps) * spec["step"]
+    assert np.all(np.abs(speeds - scene.arrays["speeds"]) <= 0.51 * np.array(spec["step"]))
+    assert np.all(np.array(spec["step"]) < np.ptp(scene.arrays["speeds"], axis=0) / 65_533)
 
 
 def test_the_same_scene_is_the_same_page_to_the_byte():

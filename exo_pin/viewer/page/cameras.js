@@ -4,7 +4,7 @@ const FIELD_OF_VIEW = 34; // vertical [deg]
 const MARGIN_AROUND = 1.06;
 
 const CAMERAS = {
-  iso: { label: "Iso", from: [0.8, -0.8, 0.42], parts: ["whole", "treadmill"] },
+  iso: { label: "Iso", from: [0.8, -0.8, 0.42], parts: ["whole", "treadmill", "stand"] },
   left: { label: "Left", from: [0, 1, 0.06] },
   right: { label: "Right", from: [0, -1, 0.06] },
   front: { label: "Front", from: [1, 0, 0.08] },
@@ -59,6 +59,7 @@ function aim(viewer, name, boxes, [x, y]) {
   const eye = axes[2].map((v, k) => target[k] + v * distance);
   viewer.camera.fov = FIELD_OF_VIEW;
   viewer.camera.near = 0.05;
+  Object.assign(viewer.scene.fog, { near: Math.max(4, distance), far: Math.max(4, distance) + 4.8 });
   viewer.camera.position.set(eye[0], eye[2], -eye[1]); // meshcat's camera lives in a y-up frame
   viewer.controls.target.set(target[0], target[2], -target[1]);
   viewer.controls.update();

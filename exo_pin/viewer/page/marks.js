@@ -6,7 +6,7 @@ class Marks {
     this.marks = marks;
     this.com = stage.node(marks.com);
     this.ground = stage.node(marks.ground);
-    this.belt = marks.belt ? stage.node(marks.belt.path) : null;
+    this.belts = marks.belt ? marks.belt.paths.map((path) => stage.node(path)) : [];
   }
 
   /** Hides all marks: for a pose by hand neither centre of mass nor contact is known. */
@@ -24,6 +24,6 @@ class Marks {
       this.ground.position.set(x, y, this.marks.height);
     }
     for (const side of ["left", "right"]) this.stage.show(this.marks.contact[side], motion.inStance(side, t));
-    if (this.belt) this.belt.position.x = -((this.marks.belt.speed * t) % this.marks.belt.pitch);
+    for (const belt of this.belts) belt.position.x = -((this.marks.belt.speed * t) % this.marks.belt.pitch);
   }
 }

@@ -26,6 +26,7 @@ SCRIPTS = (
     "stage.js",
     "marks.js",
     "forces.js",
+    "bars.js",
     "scale.js",
     "window.js",
     "backdrop.js",

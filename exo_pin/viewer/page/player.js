@@ -48,6 +48,7 @@ class Player {
     const { header, commands, arrays } = await readBundle(zipped);
     if (this.header && this.header.id === header.id) return; // a reconnect: keep playing
     this.header = header;
+    this.beside = false; // whether the ghost walks beside the first figure
     this.motion = new Motion(header, arrays);
     const fresh = new Clock(header.duration);
     fresh.speed = header.speed;
@@ -80,11 +81,16 @@ class Player {
     this.stage.load(header, commands);
     this.chains = header.chains.map((spec) => new Chain(this.stage.viewer.scene_tree, spec));
     this.marks = new Marks(this.stage, header.marks);
+    this.bars = new Bars(this.stage, this.chains[0], header.bars);
     this.forces = new Forces(this.stage, header.forces);
     this.sliders.load(header.chains[0], header.handles.length ? HANDLES_HINT : "");
     this.reach = new Reach(this.chains[0]);
     this.handles.load(this.chains[0], header.handles);
     fillToggles(this.part("toggles"), header.groups, this.stage);
+    if (header.beside) {
+      this.setBeside(header.beside.shown);
+      this.part("toggles").append(toggle("Ghost beside", this.beside, (on) => this.setBeside(on)));
+    }
     this.followed = [0, 0];
     this.look(this.view || "iso");
   }
@@ -96,7 +102,8 @@ class Player {
     this.byHand = false;
     this.showStatus("");
     if (this.stage) {
-      for (const chain of this.chains) chain.set(this.motion.row(chain.spec.q, at), this.motion.pose(chain.spec.base, at));
+      for (const chain of this.chains) this.walk(chain, at);
+      this.bars.set();
       this.marks.set(this.motion, t, at);
       this.forces.set(this.motion, at);
       this.follow(at);
@@ -105,6 +112,36 @@ class Player {
     }
     this.plots.draw(t, at);
     this.drawn = t;
+  }
+
+  /** Puts a figure where its walk has it; a ghost beside the first figure is shifted. */
+  walk(chain, at) {
+    const base = this.motion.pose(chain.spec.base, at);
+    const { beside } = this.header;
+    if (beside && this.beside && beside.chains.includes(chain.spec.name)) base.position[1] += beside.aside;
+    chain.set(this.motion.row(chain.spec.q, at), base);
+  }
+
+  /** Lets the ghost walk beside the first figure, or inside it. */
+  setBeside(on) {
+    const { beside } = this.header;
+    this.beside = on;
+    if (beside.path) this.stage.show(beside.path, on);
+    const ghost = this.chains.find(({ spec }) => spec.name === beside.chains[0]);
+    this.stage.fade(ghost.root, on ? 0.85 : this.header.paint.opacity);
+    if (this.drawn !== null) this.apply();
+    if (this.view) this.look(this.view);
+  }
+
+  /** The boxes for the cameras, widened to a ghost beside the first figure. */
+  boxes() {
+    const { boxes, beside } = this.header;
+    if (!beside || !this.beside) return boxes;
+    const widened = ({ center: [x, y, z], size: [long, wide, high] }) => ({
+      center: [x, y + beside.aside / 2, z],
+      size: [long, wide + Math.abs(beside.aside), high],
+    });
+    return Object.fromEntries(Object.entries(boxes).map(([name, box]) => [name, widened(box)]));
   }
 
   /** Cameras go along with a walk through the room. */
@@ -227,7 +264,7 @@ class Player {
 
   look(name) {
     this.view = name;
-    if (this.stage && this.header) aim(this.stage.viewer, name, this.header.boxes, this.followed);
+    if (this.stage && this.header) aim(this.stage.viewer, name, this.boxes(), this.followed);
   }
 
   notify(text) {

@@ -4,7 +4,7 @@
 function roundStep(span, parts) {
   const raw = span / parts;
   const power = 10 ** Math.floor(Math.log10(raw));
-  return [1, 2, 5, 10].map((k) => k * power).find((step) => step >= raw * 0.999);
+  return [1, 2, 2.5, 5, 10].map((k) => k * power).find((step) => step >= raw * 0.999);
 }
 
 /** A number for people: so many decimals, a true minus, and none before a zero. */

@@ -37,6 +37,9 @@ class Stage {
     if (this.viewer.scene_tree.children[ROOT]) this.viewer.delete_path([ROOT]);
     for (const command of commands) this.viewer.handle_command_bytearray(command);
     for (const [path, source] of header.twins) this.copy(path, source);
+    const { type, ...paint } = header.paint;
+    const ghostly = new MeshCat.THREE[type](paint);
+    for (const [path, source] of header.painted) this.copy(path, source, ghostly);
     for (const path of header.shadowless) this.node(path).traverse((node) => (node.castShadow = false));
     if (this.quality === "low") this.simplify(header.lights);
   }
@@ -48,11 +51,21 @@ class Stage {
     }
   }
 
-  /** Shows at a path what another node shows; geometry and material are shared. */
-  copy(path, source) {
+  /** Shows at a path what another node shows; geometry and, unless another is given, material are shared. */
+  copy(path, source, material = null) {
     const names = (text) => text.split("/").filter((name) => name);
     const original = this.viewer.scene_tree.find([...names(source), "<object>"]).object;
-    this.viewer.set_object(names(path), original.clone());
+    const twin = original.clone();
+    if (material) Object.assign(twin, { material, userData: { ghost: true } });
+    this.viewer.set_object(names(path), twin);
+  }
+
+  /** Sets the opacity of a ghost's surfaces; a nearly opaque one hides what is behind it. */
+  fade(root, opacity) {
+    root.traverse((node) => {
+      if (node.userData.ghost) Object.assign(node.material, { opacity, depthWrite: opacity > 0.6 });
+    });
+    this.viewer.set_dirty();
   }
 
   node(path) {

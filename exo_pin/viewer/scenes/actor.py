@@ -26,6 +26,7 @@ class Actor:
         arrays: Its samples, `(n, ...)`.
         group: What switches it on and off.
         twins: Nodes that show the same as another: (path, source).
+        painted: Nodes that show the shape of another, painted as a ghost: (path, source).
     """
 
     commands: tuple[Command, ...]
@@ -33,6 +34,7 @@ class Actor:
     arrays: Mapping[str, Array]
     group: Group
     twins: tuple[tuple[str, str], ...] = ()
+    painted: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

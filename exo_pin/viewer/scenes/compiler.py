@@ -19,13 +19,13 @@ from exo_pin.ground import PlacedWalk
 from exo_pin.retarget import Retargeted
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes import joint_plots, props
-from exo_pin.viewer.scenes.actor import Actor
+from exo_pin.viewer.scenes.actor import GHOST, Actor
 from exo_pin.viewer.scenes.exoskeleton import stage_exoskeleton
 from exo_pin.viewer.scenes.humanoid import stage_robot
 from exo_pin.viewer.scenes.kinetics import Kinetics
-from exo_pin.viewer.scenes.scene import ROOT, Facts, Group, Interval, Marks, PhaseCycles, Scene
+from exo_pin.viewer.scenes.scene import ROOT, Beside, Facts, Group, Interval, Marks, PhaseCycles, Scene
 from exo_pin.viewer.scenes.staging import SceneOptions, Staging
-from exo_pin.viewer.scenes.world import boxes, world
+from exo_pin.viewer.scenes.world import ASIDE, SECOND, boxes, world
 
 _ASKEW = radians(15)
 """A walk that heads less far from x than this is left as recorded: the cameras still show its sides."""
@@ -146,8 +146,9 @@ def _rotation(gait: Gait, faced: Gait) -> Array:
 
 def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> Scene:
     """The scene of a staging: the world around it, and the page's header."""
-    gait, walk, actors, forces = staging.gait, staging.walk, staging.actors, staging.forces
-    drawings, marks = world(gait, walk, staging.mounts)
+    gait, walk, actors = staging.gait, staging.walk, staging.actors
+    forces, stand = staging.forces, staging.stand
+    drawings, marks = world(gait, walk, staging.mounts, ghost=options.compare is not None)
     cycles = phase_cycles(gait)
     phase = [f"The phase is an estimate: {cycles.estimate}."] if cycles.estimate else []
     facts = Facts(
@@ -170,22 +171,35 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         handles=staging.handles,
         plots=joint_plots.groups(staging.tabs),
         groups=(
-            *_groups(actors, marks, com=walk.com is not None),
+*_groups(actors, marks, com=walk.com is not None),
+            *(() if stand is None else (stand.group,)),
             *(() if forces is None else forces.groups),
         ),
         marks=marks,
+        beside=_beside(walk, options),
+        bars=() if stand is None else stand.bars,
         forces=None if forces is None else forces.marks,
         keys=(*staging.keys, *(() if forces is None else forces.keys)),
-        boxes=boxes(gait, walk, staging.top),
+        boxes=boxes(gait, walk, staging.top) | ({} if stand is None else {"stand": stand.frame}),
         follow=walk.support.overground,
         speed=options.speed,
         twins=tuple(pair for actor in actors for pair in actor.twins),
+        painted=tuple(pair for actor in actors for pair in actor.painted),
+        paint=GHOST.command(),
         shadowless=tuple(f"{ROOT}/{name}" for name in ("traces", "marks", "floor", "ghost")),
         lights=props.PLAIN_LIGHTS,
     )
+    drawings += () if stand is None else stand.commands
     commands = (*drawings, *(command for actor in actors for command in actor.commands))
     curves = joint_plots.arrays(staging.tabs) | ({} if forces is None else dict(forces.arrays))
     return Scene(facts, commands, _arrays(walk, actors, curves), staging.robot)
+
+
+def _beside(walk: PlacedWalk, options: SceneOptions) -> Beside | None:
+    """Where the second walk goes if it is shown beside the first."""
+    if options.compare is None:
+        return None
+    return Beside(("ghost", "ghost_wearer"), ASIDE, "" if walk.support.overground else SECOND, options.beside)
 
 
 def _subtitle(gait: Gait) -> str:

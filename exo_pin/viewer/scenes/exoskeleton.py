@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from exo_pin.anatomy import CORNERS, FEET, SIDES
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy import CORNERS, FEET, SIDES, Body
+from exo_pin.anatomy.names import Side, SupportStyle
 from exo_pin.arrays import Array
 from exo_pin.devices import TOES
 from exo_pin.gait import Gait, Torques
 from exo_pin.ground import PlacedWalk, aligned, alignment_note, place_walk, toe_angles
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes import joint_plots, person_figure, walk_plots
-from exo_pin.viewer.scenes.actor import GHOST, Actor, Mount, chain_samples
+from exo_pin.viewer.scenes.actor import Actor, Mount, chain_samples
+from exo_pin.viewer.scenes.balance_support import balance_support
 from exo_pin.viewer.scenes.force_marks import shown_forces
 from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
@@ -57,19 +59,21 @@ def stage_exoskeleton(
     samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)
     actors, keys = [Actor(tree.commands, chain, samples, Group("Exoskeleton", tree.visuals))], list[Key]()
     tabs, notes = _tabs(robot, walk, gait, reference, torques, kinetics), []
-    if options.compare is not None:
-        second = aligned(gait, options.compare)
-        placed = place_walk(robot, second, options.support)
-        actors.append(_ghost(robot, placed, options))
-        tabs = joint_plots.with_second_walk(tabs, _tabs(robot, placed, second))
+    second = None if options.compare is None else _second(robot, gait, options.compare, options.support)
+    if second is not None:
+        actors.append(_ghost(robot, second.walk, tree, options.compare_title))
+        tabs = joint_plots.with_second_walk(tabs, _tabs(robot, second.walk, second.gait))
         keys.append(Key(f"ghost: {options.compare_title}", _GHOST_COLOR))
-        notes.append(alignment_note(gait, options.compare))
+        notes.append(second.note)
     top = _BACKPACK
     worn = wearer and robot.body is not None and robot.body.wearer
     if worn and not person_figure.installed():
         notes.append(f"{person_figure.MISSING[0].upper()}{person_figure.MISSING[1:]}.")
     elif worn and robot.body is not None:
-        actors.append(wearer_figure(robot.body, tree.links, f"{ROOT}/wearer", gait, walk.base))
+        person = wearer_figure(robot.body, tree.links, f"{ROOT}/wearer", gait, walk.base)
+        actors.append(person)
+        if second is not None and options.beside:
+            actors.append(_ghosts_wearer(robot.body, actors, person, second))
         top = robot.body.stature - robot.body.leg_length
     return Staging(
         robot=robot,
@@ -85,6 +89,7 @@ def stage_exoskeleton(
         compared="" if options.compare is None else options.compare_title,
         top=top,
         notes=(*notes, *_notes(tree, actors), *joint_plots.notes(torques), *walk_plots.notes(kinetics)),
+        stand=balance_support(robot, walk, top, unloads=kinetics is not None and kinetics.unloading > 0.0),
         forces=None if kinetics is None else shown_forces(kinetics, walk, tree),
         keys=tuple(keys),
     )
@@ -104,12 +109,44 @@ def _tabs(
     return angles, speeds, walk_plots.pelvis(walk), *file, *forces
 
 
-def _ghost(robot: Robot, walk: PlacedWalk, options: SceneOptions) -> Actor:
-    """A second walk of the same exoskeleton, on the clock of the first."""
-    tree = linkage(robot.urdf, f"{ROOT}/ghost", paint=GHOST)
-    chain = Chain("ghost", tree.root, tree.links, tree.joints, "ghost_q", "ghost_base")
-    samples = chain_samples(chain, _angles(robot, walk, tree), walk.base)
-    return Actor(tree.commands, chain, samples, Group(f"Ghost: {options.compare_title}", tree.visuals))
+@dataclass(frozen=True, eq=False)
+class _Second:
+    """A second walk on the clock of the first: itself, on its ground, and how it was laid over the first."""
+
+    gait: Gait
+    walk: PlacedWalk
+    note: str
+
+
+def _second(robot: Robot, gait: Gait, other: Gait, support: SupportStyle) -> _Second:
+    second = aligned(gait, other)
+    return _Second(second, place_walk(robot, second, support), alignment_note(gait, other))
+
+
+def _ghosts_wearer(body: Body, actors: Iterable[Actor], person: Actor, second: _Second) -> Actor:
+    """The person in the second walk, where it goes beside the first."""
+    (ghost,) = [actor for actor in actors if actor.chain.name == "ghost"]
+    links, path = ghost.chain.links, f"{ROOT}/ghost_wearer"
+    made = wearer_figure(body, links, path, second.gait, second.walk.base, like=person)
+    return replace(made, group=Group("The ghost's wearer", made.group.paths))
+
+
+def _ghost(robot: Robot, walk: PlacedWalk, tree: Linkage, title: str) -> Actor:
+    """A second walk of the same exoskeleton, on the clock of the first: its drawings in another paint."""
+
+    def own(path: str) -> str:
+        return f"{ROOT}/ghost{path.removeprefix(tree.root)}"
+
+    links = {name: own(path) for name, path in tree.links.items()}
+    joints = tuple(replace(joint, path=own(joint.path)) for joint in tree.joints)
+    chain = Chain("ghost", own(tree.root), links, joints, "ghost_q", "ghost_base")
+    return Actor(
+        commands=tuple(c | {"path": own(c["path"])} for c in tree.commands if c["type"] == "set_transform"),
+        chain=chain,
+        arrays=chain_samples(chain, _angles(robot, walk, tree), walk.base),
+        group=Group(f"Ghost: {title}", tuple(map(own, tree.visuals))),
+        painted=tuple((own(c["path"]), c["path"]) for c in tree.commands if c["type"] == "set_object"),
+    )
 
 
 def _angles(robot: Robot, walk: PlacedWalk, tree: Linkage) -> dict[str, Array]:

@@ -21,11 +21,14 @@ _WEIGHT_LONG = 0.6
 _FULL_ARC = 300.0
 """Of the largest torque of the walk [degrees]."""
 
-_GROUND, _SUPPORT, _TORQUE, _LOAD = "#0ca54b", "#8a4fd3", "#ff7a0a", "#e0b100"
+_GROUND, _SUPPORT, _TORQUE = "#0ca54b", "#8a4fd3", "#ff7a0a"
+_LOAD = "linear-gradient(90deg, #2fb457, #e6b800, #c4221f)"
 """Colours of the arrows and arcs: of neither leg."""
 
-_NEAR, _THICK = 0.075, 0.035
+_NEAR, _THICK = 0.075, 0.02
 """What is nearer than this to a joint's axis, and at most so deep below its outer face, is its motor [m]."""
+
+_FORWARD = np.array([1.0, 0.0, 0.0])
 
 _RIM = 0.03
 """An arc goes around a motor so far away [m]."""
@@ -116,10 +119,12 @@ def _motor(joint: JointNode, shape: Solid | None) -> tuple[float, float]:
         return 0.0, _WIDE
     along = shape.vertices @ axis
     apart = np.linalg.norm(shape.vertices - along[:, None] * axis, axis=1)
-    along, apart = along[apart < _NEAR], apart[apart < _NEAR]
+    near = apart < _NEAR
+    along, apart = along[near], apart[near]
     if not len(along):
         return 0.0, _WIDE
-    face = float(along[np.abs(along).argmax()])
+    forward = abs(axis[0]) > abs(axis[1])  # such a joint's motor is behind the leg, the others' beside it
+    face = float(along[(shape.vertices[near] @ _FORWARD).argmin() if forward else np.abs(along).argmax()])
     return face, float(apart[np.abs(along - face) < _THICK].max()) + _RIM
 
 

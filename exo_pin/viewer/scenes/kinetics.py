@@ -52,6 +52,7 @@ class Kinetics:
         torque: `(n, 12)` of the joints, or of the motors of a simulated walk [N m].
         power: `(n, 12)` of these torques [W].
         weight: Of all that is carried [N].
+        unloading: Constant upward force of a body-weight support [N].
         source: Where torques and forces come from, in words.
         effort: Of a simulated walk.
     """
@@ -64,6 +65,7 @@ class Kinetics:
     torque: Array
     power: Array
     weight: float
+    unloading: float
     source: str
     effort: Effort | None = None
 
@@ -80,6 +82,7 @@ class Kinetics:
             torque=found.torque,
             power=found.power,
             weight=found.weight_force,
+            unloading=found.support_force,
             source=found.source,
         )
 
@@ -104,6 +107,7 @@ class Kinetics:
             torque=motor,
             power=motor * run.dq[rows],
             weight=run.weight,
+            unloading=run.body_weight_support * run.weight,
             source=f"motors under the controller {run.controller}",
             effort=Effort(run.person[rows], load, run.q[rows] - run.reference.q[: len(run.q)][rows]),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,6 +64,7 @@ class Treadmill:
         height: Of the belt's surface [m].
         speed: Of the belt [m/s].
         period: Duration of the loop [s], in which the belt moves on by whole slats.
+        aside: Its middle along y [m].
     """
 
     center: float
@@ -70,6 +72,7 @@ class Treadmill:
     height: float
     speed: float
     period: float
+    aside: float = 0.0
 
     @property
     def pitch(self) -> float:
@@ -135,7 +138,7 @@ def treadmill(path: str, mill: Treadmill) -> list[Command]:
     for name, s in (("left", 1), ("right", -1)):
         parts.append((f"rail_{name}", (long, 0.11, DECK), (0.0, 0.365 * s, -DECK / 2 + 0.002), metal))
         parts.append((f"strip_{name}", (long, 0.008, 0.022), (0.0, 0.4212 * s, -0.05), signal))
-    commands = [place(path, translation(mill.center, 0, mill.height))]
+    commands = [place(path, translation(mill.center, mill.aside, mill.height))]
     for name, size, at, material in parts:
         commands += [draw(f"{path}/{name}", box(size), material), place(f"{path}/{name}", translation(*at))]
     return commands + _slats(f"{path}/slats", mill)
@@ -144,13 +147,13 @@ def treadmill(path: str, mill: Treadmill) -> list[Command]:
 def frame(mill: Treadmill) -> Box:
     """What a camera has to frame to show all of the treadmill."""
     back, front = -(mill.length + _TAIL) / 2, mill.length / 2 + _HOOD
-    center = (mill.center + (back + front) / 2, 0.0, mill.height - DECK / 2)
+    center = (mill.center + (back + front) / 2, mill.aside, mill.height - DECK / 2)
     return Box(center, (front - back, _BREADTH, DECK))
 
 
-def belt(path: str, mill: Treadmill) -> Belt:
-    """What the page needs to move the slats of the treadmill at a path."""
-    return Belt(f"{path}/slats", mill.pitch, mill.speed)
+def belt(paths: Sequence[str], mill: Treadmill) -> Belt:
+    """What the page needs to move the slats of equal treadmills at some paths."""
+    return Belt(tuple(f"{path}/slats" for path in paths), mill.pitch, mill.speed)
 
 
 def _slats(path: str, mill: Treadmill) -> list[Command]:

@@ -142,9 +142,9 @@ class Handle:
 
 @dataclass(frozen=True)
 class Belt:
-    """The treadmill's belt: node of the slats, their distance [m], speed backwards [m/s]."""
+    """The treadmill's belt: nodes of the slats, their distance [m], speed backwards [m/s]."""
 
-    path: str
+    paths: tuple[str, ...]
     pitch: float
     speed: float
 
@@ -158,6 +158,38 @@ class Marks:
     height: float
     contact: Mapping[Side, str]
     belt: Belt | None
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Where the ghost walks beside the first figure.
+
+    Attributes:
+        chains: Names of its chain and of its wearer's.
+        aside: Shift to the left [m].
+        path: Of its own treadmill; empty over ground.
+        shown: Whether it is there at first.
+    """
+
+    chains: tuple[str, ...]
+    aside: float
+    path: str
+    shown: bool
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A bar along z of its node, 1 m long, that the page lays between two points [m].
+
+    Attributes:
+        path: Of its node.
+        start: In the room.
+        end: In the axes of the pelvis.
+    """
+
+    path: str
+    start: tuple[float, float, float]
+    end: tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -250,12 +282,16 @@ class Facts:
         plots: The tabs of plots.
         groups: What can be shown or hidden.
         marks: What moves besides the figures.
+        beside: Where the ghost may walk; None: there is none.
+        bars: Of the balance support.
         forces: Forces and torques in the picture; None: they are not known.
         keys: Further entries of the legend.
         boxes: `whole`, `feet` and, if there is one, `treadmill`, for the cameras.
         follow: Whether the cameras go along with the pelvis.
         speed: Playback speed at first, 1 = as it happened.
         twins: Nodes that show the same as another: (path, source).
+        painted: Nodes that show the shape of another in `paint`: (path, source).
+        paint: The ghost's surface, as three.js reads it.
         shadowless: Paths that cast no shadow.
         lights: Light name -> intensity without the studio's environment.
     """
@@ -276,12 +312,16 @@ class Facts:
     plots: tuple[PlotGroup, ...]
     groups: tuple[Group, ...]
     marks: Marks
+    beside: Beside | None
+    bars: tuple[Bar, ...]
     forces: ForceMarks | None
     keys: tuple[Key, ...]
     boxes: Mapping[str, Box]
     follow: bool
     speed: float
     twins: tuple[tuple[str, str], ...]
+    painted: tuple[tuple[str, str], ...]
+    paint: Mapping[str, Any]
     shadowless: tuple[str, ...]
     lights: Mapping[str, float]
 

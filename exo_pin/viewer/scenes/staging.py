@@ -10,6 +10,7 @@ from exo_pin.gait import Gait
 from exo_pin.ground import STYLES, PlacedWalk
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes.actor import Actor, Mount
+from exo_pin.viewer.scenes.balance_support import DrawnSupport
 from exo_pin.viewer.scenes.force_marks import ShownForces
 from exo_pin.viewer.scenes.joint_plots import Tab
 from exo_pin.viewer.scenes.scene import Handle, Key
@@ -27,6 +28,7 @@ class SceneOptions:
         compare_title: What the ghost is.
         notes: Sentences to print under the plots.
         speed: Playback speed at first; 1 is as it happened.
+        beside: Whether the second walk is at first beside the first, on a treadmill of its own.
 
     Raises:
         UnknownNameError: There is no such support.
@@ -39,6 +41,7 @@ class SceneOptions:
     compare_title: str = "compared"
     notes: tuple[str, ...] = ()
     speed: float = 1.0
+    beside: bool = False
 
     def __post_init__(self) -> None:
         word("support", self.support, STYLES)
@@ -61,6 +64,7 @@ class Staging:
         compared: What the dotted curves are, or empty.
         top: How far the picture reaches above the robot's root [m].
         notes: What to know about the picture, in sentences.
+        stand: The balance support, if the device has one.
         forces: Forces and torques in the picture, if they are known.
         keys: Further entries of the legend.
     """
@@ -76,5 +80,6 @@ class Staging:
     compared: str
     top: float
     notes: tuple[str, ...]
+    stand: DrawnSupport | None = None
     forces: ShownForces | None = None
     keys: tuple[Key, ...] = ()

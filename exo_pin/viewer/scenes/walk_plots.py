@@ -64,7 +64,7 @@ def of_kinetics(robot: Robot, kinetics: Kinetics) -> tuple[Tab, ...]:
         torques = replace(
             torques, reference=effort.person, reference_time=start, dashes="torque of the person"
         )
-    error = _joints("Error", "error", effort.error, DEGREES)
+    error = _joints("Error", "error", effort.error, DEGREES._replace(digits=2, least=2.0))
     load = _joints("Load", "load", effort.load, _PERCENT, np.ones(len(JOINTS)), dict.fromkeys(MOVEMENTS, ""))
     return loads, torques, load, power, error
 

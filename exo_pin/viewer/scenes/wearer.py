@@ -40,32 +40,41 @@ _SHOULDER = np.array([0.008, 0.182, 0.324])  # seen from the lumbar joint; neare
 _UPPER_ARM = 0.276
 
 
-def wearer(body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Array) -> Actor:
+def wearer(
+    body: Body, links: Mapping[str, str], root: str, gait: Gait, base: Array, *, like: Actor | None = None
+) -> Actor:
     """The person of a body in a walk.
 
     Args:
         body: Sizes.
         links: Link name -> path of the exoskeleton's nodes.
-        root: Path for the upper body.
+        root: Path for the upper body; its last part is the name of the figure.
         gait: The walk.
         base: `(n, 4, 4)` pose of the pelvis as shown.
+        like: The same person in another walk, whose shapes are shown again.
 
     Raises:
         ExoPinError: example-robot-data is not installed.
     """
-    size = (body.stature - body.leg_length) / _HEAD
+    size, name = (body.stature - body.leg_length) / _HEAD, root.rpartition("/")[2]
     middle = {"pelvis": f"{links['pelvis']}/wearer", "trunk": f"{root}/look"}
     left, right = (_limbs(links, root, side) for side in SIDES)
-    shapes = _middle(size, body.girth) | _limb_shapes(body, size)
-    commands = [_picture(path, shapes[name]) for name, path in (middle | left).items()]
-    commands += [place(path, _mirrored(body, name)) for name, path in right.items()]
+    paths = (*middle.values(), *left.values(), *right.values())
     chain, placements = _arms(root, size, body.girth)
+    mirrored = [place(path, _mirrored(body, part)) for part, path in right.items()]
+    if like is None:
+        shapes = _middle(size, body.girth) | _limb_shapes(body, size)
+        pictures = [_picture(path, shapes[part]) for part, path in (middle | left).items()]
+        twins = tuple((right[part], left[part]) for part in left)
+    else:
+        pictures, drawn = [], like.group.paths[: len(middle) + len(left)]
+        twins = tuple(zip(paths, (*drawn, *drawn[len(middle) :]), strict=True))
     return Actor(
-        commands=(*commands, *placements),
+        commands=(*pictures, *mirrored, *placements),
         chain=chain,
-        arrays={"wearer_q": _swing(gait), "wearer_base": _trunk(base, size)},
-        group=Group("Wearer", (*middle.values(), *left.values(), *right.values())),
-        twins=tuple((right[name], left[name]) for name in left),
+        arrays={f"{name}_q": _swing(gait), f"{name}_base": _trunk(base, size)},
+        group=Group("Wearer", paths),
+        twins=twins,
     )
 
 
@@ -156,7 +165,8 @@ def _arms(root: str, size: float, girth: float) -> tuple[Chain, list[Command]]:
         for name, path in ((f"{side}_shoulder", upper), (f"{side}_elbow", fore)):
             joints.append(JointNode(name, f"{path}/turn", (0.0, -1.0, 0.0), "revolute"))
             links[name] = f"{path}/turn"
-    return Chain("wearer", root, links, tuple(joints), "wearer_q", "wearer_base"), commands
+    name = root.rpartition("/")[2]
+    return Chain(name, root, links, tuple(joints), f"{name}_q", f"{name}_base"), commands
 
 
 def _swing(gait: Gait) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,12 @@ from exo_pin.viewer.scenes import props
 from exo_pin.viewer.scenes.actor import Mount
 from exo_pin.viewer.scenes.scene import ROOT, Box, Marks
 
+SECOND = f"{ROOT}/second_treadmill"
+"""Path of the treadmill of a ghost beside the first figure."""
+
+ASIDE = -1.15
+"""Where it stands, to the left [m]."""
+
 _UNTHINNED = 400
 """A foot's path of no more samples than this is drawn through all of them."""
 
@@ -27,20 +34,24 @@ TRACE_ERROR = 1e-3
 """A longer one is nowhere wrong by more than this [m], if `TRACE_POINTS` points suffice."""
 
 
-def world(gait: Gait, walk: PlacedWalk, feet: Sequence[Mount]) -> tuple[list[Command], Marks]:
+def world(
+    gait: Gait, walk: PlacedWalk, feet: Sequence[Mount], *, ghost: bool = False
+) -> tuple[list[Command], Marks]:
     """All drawings but the figures, and the nodes among them that the page moves.
 
     Args:
         gait: The walk's duration.
         walk: The walk on its ground.
         feet: Left and right sole.
+        ghost: Whether a second walk may need a treadmill of its own.
     """
     commands = props.studio()
     belt, ground = None, 0.0
     if not walk.support.overground:
-        mill = _treadmill(walk, gait)
-        commands += props.treadmill(f"{ROOT}/treadmill", mill)
-        belt, ground = props.belt(f"{ROOT}/treadmill", mill), -props.DECK
+        mill = treadmill(walk, gait.duration)
+        mills = {f"{ROOT}/treadmill": mill} | ({SECOND: replace(mill, aside=ASIDE)} if ghost else {})
+        commands += [command for path, each in mills.items() for command in props.treadmill(path, each)]
+        belt, ground = props.belt(tuple(mills), mill), -props.DECK
     commands += props.floor(f"{ROOT}/floor", ground, float(np.abs(walk.base[:, :2, 3]).max()) + 4.0)
     commands += props.centre_of_mass(f"{ROOT}/marks/com")
     contact: dict[Side, str] = {}
@@ -71,14 +82,20 @@ def boxes(gait: Gait, walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
         "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),
         "feet": Box((middle, y, 0.12), (high - low, 0.6, 0.4)),
     }
-    mill = None if walk.support.overground else props.frame(_treadmill(walk, gait))
+    mill = None if walk.support.overground else props.frame(treadmill(walk, gait.duration))
     return found if mill is None else found | {"treadmill": mill}
 
 
-def _treadmill(walk: PlacedWalk, gait: Gait) -> props.Treadmill:
+def treadmill(walk: PlacedWalk, period: float = 1.0) -> props.Treadmill:
+    """The treadmill under a walk on the spot.
+
+    Args:
+        walk: The walk on its ground.
+        period: In which its belt moves on by whole slats [s].
+    """
     low, high = float(walk.corners[..., 0].min()), float(walk.corners[..., 0].max())
     length = max(high - low + 0.75, 1.5)
-    return props.Treadmill((low + high) / 2 + 0.05, length, 0.0, walk.support.belt_speed, gait.duration)
+    return props.Treadmill((low + high) / 2 + 0.05, length, 0.0, walk.support.belt_speed, period)
 
 
 def _thinned(points: Array) -> Array:
