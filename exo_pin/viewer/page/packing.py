@@ -22,8 +22,8 @@ _LEVELS = 2**15 - 1
 def bundle(scene: Scene) -> bytes:
     """Pack a scene: gzip of chunks (u32 length, bytes): JSON header, meshcat commands, arrays.
 
-    Times are float64, what poses figures is float32, and curves are rounded to 1/65534 of their range. But for
-    times, columns follow each other, each number less the one before it, first bytes first: so they
+    Times are float64, what poses figures is float32, and curves are rounded to 1/65534 of their range. But
+    for times, columns follow each other, each number less the one before it, first bytes first: so they
     compress to half. Equal arrays are sent once. The same scene gives the same bytes.
 
     Args:
