@@ -171,7 +171,7 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         handles=staging.handles,
         plots=joint_plots.groups(staging.tabs),
         groups=(
-*_groups(actors, marks, com=walk.com is not None),
+            *_groups(actors, marks, com=walk.com is not None),
             *(() if stand is None else (stand.group,)),
             *(() if forces is None else forces.groups),
         ),
