@@ -7,6 +7,7 @@ Joints that it locks do not enter the verdict: what the feet lose by them stands
 
 from __future__ import annotations
 
+import contextlib
 from typing import get_args
 
 from exo_pin import devices
@@ -15,6 +16,7 @@ from exo_pin.anatomy.names import FitWord, HipOrder, KneeRule, PelvisMotion
 from exo_pin.arguments import word
 from exo_pin.compare import Conditions
 from exo_pin.devices import Device
+from exo_pin.errors import GaitError
 from exo_pin.feasible.assessment import feasible
 from exo_pin.feasible.belt import within_belt
 from exo_pin.feasible.concession import knee_concession, other_walks
@@ -22,6 +24,7 @@ from exo_pin.feasible.device_walk import DeviceWalk
 from exo_pin.feasible.feasibility import Feasibility
 from exo_pin.feasible.knee_stop import bent, held_at_stop
 from exo_pin.gait import Gait, Torques
+from exo_pin.kinematics import with_events
 from exo_pin.robot import Robot, load_robot
 
 
@@ -70,6 +73,8 @@ def device_walk(
         )
 
     full = load_robot(body)
+    with contextlib.suppress(GaitError):  # its own, not those of a walk with held knees: they set the speed
+        gait = with_events(full, gait)
     start = bent(full, gait) if knee == "bend" and _hyperextends(full, gait) else gait
     first = assessed(start, torques)
     held = held_at_stop(full, first.robot, start) if knee == "stop" else None
