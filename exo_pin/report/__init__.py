@@ -1,7 +1,8 @@
 """Figures and reports: documents as values, rendered as self-contained HTML or as Markdown.
 
 `walk(robot, gait)` reports one walk for an engineer or clinician, `reproduction(robot, gait)` the paper's
-figures, `comparison(compared)` devices side by side, `study(rows)` many walks. Each returns a `Document`:
+figures, `comparison(compared)` devices side by side, `study(rows)` many walks, `trials(found)` and
+`folder(found)` several trials of people. Each returns a `Document`:
 `html(document)` and `markdown(document)` make text of it.
 
 The rooms inside import one way only: draw -> document -> sections -> pages.
@@ -15,6 +16,7 @@ from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.pages.comparison_page import comparison
 from exo_pin.report.pages.reproduction import RenderedPictures, reproduction
 from exo_pin.report.pages.study_page import study
+from exo_pin.report.pages.trials_page import folder, trials
 from exo_pin.report.pages.walk_page import ReportInfo, walk
 
 __all__ = [
@@ -24,9 +26,11 @@ __all__ = [
     "ReportInfo",
     "comparison",
     "csv_of",
+    "folder",
     "html",
     "markdown",
     "reproduction",
     "study",
+    "trials",
     "walk",
 ]
