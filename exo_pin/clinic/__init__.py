@@ -2,9 +2,9 @@
 
 from exo_pin.clinic.band_file import load_band, save_band
 from exo_pin.clinic.clinical_cycles import ClinicalCycles, clinical_cycles, normal_cycles
+from exo_pin.clinic.compared_trial import Change, Trial, change
 from exo_pin.clinic.gait_profile import NINE, GaitProfile, gait_profile
 from exo_pin.clinic.normal_band import BandCurve, NormalBand, published_band, recorded_band
-from exo_pin.clinic.trial import Change, Trial, change
 
 __all__ = [
     "NINE",
