@@ -4,11 +4,11 @@
 """
 
 from exo_pin.study.case import Case, Outcome, solve
-from exo_pin.study.earlier_rows import part
 from exo_pin.study.parallel import Study, run
 from exo_pin.study.plan import STATURE_RANGE, STATURE_STEP, bodies, plan, recordings, statures
 from exo_pin.study.study_table import TABLE_COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
+from exo_pin.study.workers import part
 
 __all__ = [
     "STATURE_RANGE",

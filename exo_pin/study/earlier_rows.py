@@ -10,7 +10,9 @@ from exo_pin.errors import DescriptionError
 from exo_pin.files import read_bytes
 from exo_pin.study import study_table
 from exo_pin.study.case import Case
+from exo_pin.study.record_table import Record, RecordTable
 from exo_pin.study.study_table import MOTIONS, Row
+from exo_pin.study.workers import part
 
 _NAMED = 5  # lines that a remark names
 
@@ -26,11 +28,6 @@ class Earlier:
 
     rows: dict[str, dict[str, Row]]
     remarks: tuple[str, ...] = ()
-
-
-def part(path: str | Path) -> Path:
-    """The file of the rows of an unfinished study."""
-    return Path(f"{path}.part")
 
 
 def earlier(path: Path, cases: Sequence[Case], *, restart: bool) -> Earlier:
@@ -49,32 +46,58 @@ def earlier(path: Path, cases: Sequence[Case], *, restart: bool) -> Earlier:
         DescriptionError: A row is of another plan, and would be lost.
         FormatError: A file is not the table of a study.
     """
-    found: dict[str, dict[str, Row]] = {}
+    rows, remarks = rows_of(path, study_table.TABLE, restart=restart)
     wanted = {mark for case in cases for mark in case.fingerprints}
-    other, remarks = list[Row](), list[str]()
+    found: dict[str, dict[str, Row]] = {}
+    other = [row for row in rows if row.inputs not in wanted]
+    for row in rows:
+        if row.inputs in wanted:
+            found.setdefault(row.inputs, {})[row.motion] = row
+    _refuse_another_plan(path, other, cases)
+    if other:
+        remarks.append(computed_again(path, [row.version for row in other], "a device or of a recording"))
+    whole = {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
+    return Earlier(whole, tuple(remarks))
+
+
+def rows_of(path: Path, table: RecordTable[Record], *, restart: bool) -> tuple[list[Record], list[str]]:
+    """The rows of a table and of its part, and remarks on lines that are edited or damaged.
+
+    Args:
+        path: The table.
+        table: Its kind.
+        restart: None is wanted: the files are looked at, for no other file is to be overwritten.
+
+    Raises:
+        FormatError: A file is no such table.
+    """
+    found, remarks = list[Record](), list[str]()
     for file in filter(Path.exists, (path, part(path))):
         content = _content(file, unfinished=file != path)
-        study_table.check_heading(file, content)
+        table.check_heading(file, content)
         if restart:
             continue
-        rows, unusable = study_table.rows_and_unusable_lines(file, content)
-        for row in rows:
-            if row.inputs in wanted:
-                found.setdefault(row.inputs, {})[row.motion] = row
-            else:
-                other.append(row)
+        rows, unusable = table.rows_and_unusable_lines(file, content)
+        found += rows
         if unusable:
             lines = ", ".join(map(str, unusable[:_NAMED])) + ", ..." * (len(unusable) > _NAMED)
             remarks.append(f"{file}: edited or damaged and not used: line {lines}")
-    _refuse_another_plan(path, other, cases)
-    if other:
-        versions = ", ".join(sorted({row.version for row in other})[:_NAMED])
-        remarks.append(
-            f"{path}: {len(other)} rows of another state of exo_pin (theirs: {versions}), of a device or "
-            "of a recording are computed again"
-        )
-    whole = {mark: rows for mark, rows in found.items() if len(rows) == len(MOTIONS)}
-    return Earlier(whole, tuple(remarks))
+    return found, remarks
+
+
+def computed_again(path: Path, versions: Sequence[str], of: str) -> str:
+    """The remark on rows that are computed again.
+
+    Args:
+        path: The table.
+        versions: Of exo_pin, of each row.
+        of: What else may have changed.
+    """
+    theirs = ", ".join(sorted(set(versions))[:_NAMED])
+    return (
+        f"{path}: {len(versions)} rows of another state of exo_pin (theirs: {theirs}), of {of} are computed "
+        "again"
+    )
 
 
 def _content(file: Path, *, unfinished: bool) -> str:

@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import contextlib
-import importlib
-import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, zip_longest
 from pathlib import Path
 
-from exo_pin.errors import DescriptionError, FormatError
-from exo_pin.files import write_text
+from exo_pin.errors import FormatError
 from exo_pin.study import study_table
 from exo_pin.study.case import Case, Outcome, solve
-from exo_pin.study.earlier_rows import Earlier, earlier, part
+from exo_pin.study.earlier_rows import Earlier, earlier
 from exo_pin.study.study_table import MOTIONS, Row
+from exo_pin.study.workers import appending, check_jobs, one_thread, part, solved, workers
 
 Progress = Callable[[Iterable[Outcome], int], Iterable[Outcome]]
 """Wraps the outcomes as they arrive; its second argument is their number."""
-
-_JOBS_PER_CORE = 32
-"""More workers than that only cost memory: each takes some 200 MB."""
-
-_AT_ONCE = 32
-"""Cases between two writes, for a back end that cannot return results one by one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,14 +73,16 @@ def run(
         DescriptionError: The table holds rows of another plan, or there cannot be so many workers.
         FormatError: The file is not the table of a study, or cannot be written.
     """
-    _check_jobs(jobs)
+    check_jobs(jobs)
     cases, failed = _readable(cases)
     before = Earlier({}) if path is None else earlier(Path(path), cases, restart=restart)
     done = dict(before.rows)
     kept, failures = len(done) * len(MOTIONS), {}
     todo = [rest for case in cases if (rest := case.without(done)).parts]
-    with _one_thread(), _appending(path, done) as append:
-        for outcome in progress(chain(failed, _solved(todo, jobs)), len(failed) + len(todo)):
+    kept_rows = [row for rows in done.values() for row in rows.values()]
+    with one_thread(), appending(path, study_table.TABLE, kept_rows) as append:
+        outcomes = solved(list(_in_turns(todo, workers(jobs))), solve, jobs)
+        for outcome in progress(chain(failed, outcomes), len(failed) + len(todo)):
             if outcome.failure:
                 failures[outcome.case.gait] = outcome.failure
             append(outcome.rows)
@@ -104,17 +97,6 @@ def run(
     return Study(rows, dict(sorted(failures.items())), len(rows) - kept, kept, before.remarks)
 
 
-def _check_jobs(jobs: int | None) -> None:
-    """Raise `DescriptionError` for a number of workers that there cannot be."""
-    most = _JOBS_PER_CORE * (os.cpu_count() or 1)
-    if jobs is None or (isinstance(jobs, int) and (jobs == -1 or 1 <= jobs <= most)):
-        return
-    raise DescriptionError(
-        f"jobs is {str(jobs)[:40]}; a number of processes from 1 to {most}, or -1 for one per core, "
-        "is accepted"
-    )
-
-
 def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
     """Cases whose file can be read, and the outcomes of the others."""
     readable, failed = [], []
@@ -126,67 +108,6 @@ def _readable(cases: Iterable[Case]) -> tuple[list[Case], list[Outcome]]:
         else:
             readable.append(case)
     return readable, failed
-
-
-@contextlib.contextmanager
-def _appending(
-    path: str | Path | None, done: dict[str, dict[str, Row]]
-) -> Iterator[Callable[[Sequence[Row]], None]]:
-    """A function that appends rows to the part, which begins with the rows that are done.
-
-    Raises:
-        FormatError: It cannot be written.
-    """
-    if path is None:
-        yield lambda rows: None
-        return
-    file = part(path)
-    write_text(file, study_table.text(row for rows in done.values() for row in rows.values()))
-
-    def append(rows: Sequence[Row]) -> None:
-        try:
-            with file.open("a", encoding="utf-8") as lines:
-                lines.write(study_table.text(rows, heading=False))
-        except OSError as error:
-            raise FormatError(file, f"cannot be written: {error.strerror}") from error
-
-    yield append
-
-
-def _solved(cases: Sequence[Case], jobs: int | None) -> Iterator[Outcome]:
-    """The outcomes as they become ready, in any order."""
-    from joblib import Parallel, delayed, effective_n_jobs
-
-    tasks = [delayed(_on_one_thread)(case) for case in _in_turns(cases, effective_n_jobs(jobs))]
-    try:
-        parallel = Parallel(n_jobs=jobs, return_as="generator_unordered")
-    except ValueError:  # a back end that returns all results at once
-        parallel = Parallel(n_jobs=jobs)
-        for k in range(0, len(tasks), _AT_ONCE):
-            yield from parallel(tasks[k : k + _AT_ONCE])
-        return
-    with contextlib.closing(parallel(tasks)) as outcomes:  # an interrupted study stops its workers
-        yield from outcomes
-
-
-@contextlib.contextmanager
-def _one_thread() -> Iterator[None]:
-    """Linear algebra on one thread: its sums round alike in every worker.
-
-    The limit holds for a whole process. A worker that is a process of its own sets it for each case; workers
-    that are threads share the one of the run, which none of them lifts before the others are done.
-    """
-    from threadpoolctl import threadpool_limits
-
-    importlib.import_module("scipy.linalg")  # its own library of linear algebra must be there to be limited
-    with threadpool_limits(limits=1):
-        yield
-
-
-def _on_one_thread(case: Case) -> Outcome:
-    """The outcome of a case."""
-    with _one_thread():
-        return solve(case)
 
 
 def _in_turns(cases: Sequence[Case], workers: int) -> Iterator[Case]:
