@@ -42,4 +42,4 @@ def _scale(element: ElementTree.Element, name: str, factor: float) -> None:
     """Multiply the numbers of an attribute."""
     text = element.get(name)
     if text is not None:
-        element.set(name, " ".join(repr(float(x) * factor) for x in text.split()))
+        element.set(name, " ".join(repr(float(float(x) * factor)) for x in text.split()))

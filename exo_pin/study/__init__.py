@@ -6,8 +6,12 @@
 from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.parallel import Study, run
 from exo_pin.study.plan import STATURE_RANGE, STATURE_STEP, bodies, plan, recordings, statures
+from exo_pin.study.robustness import SimulatedStudy, run_simulations
+from exo_pin.study.simulated_plan import simulations
+from exo_pin.study.simulated_table import SimulatedRow
 from exo_pin.study.study_table import TABLE_COLUMNS, Row, load, save
 from exo_pin.study.summary import summary
+from exo_pin.study.walking_shares import Share, walking_shares
 from exo_pin.study.workers import part
 
 __all__ = [
@@ -17,6 +21,9 @@ __all__ = [
     "Case",
     "Outcome",
     "Row",
+    "Share",
+    "SimulatedRow",
+    "SimulatedStudy",
     "Study",
     "bodies",
     "load",
@@ -24,8 +31,11 @@ __all__ = [
     "plan",
     "recordings",
     "run",
+    "run_simulations",
     "save",
+    "simulations",
     "solve",
     "statures",
     "summary",
+    "walking_shares",
 ]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from exo_pin.anatomy import Body
 from exo_pin.anatomy.names import PelvisMotion
-from exo_pin.cli import measures, options, show, stopping
+from exo_pin.cli import measures, options, show, simulated_study, stopping
 from exo_pin.cli.clock import moment
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_text
@@ -25,6 +25,7 @@ _EXAMPLES = """examples:
   exo-pin study --jobs 2 --step 0.01            finer, on two cores
   exo-pin study --speeds free --devices exo12 lokomat mine.toml --pelvis recorded -o mine.csv
   exo-pin study --recordings walks -o walks.csv        every recording in a folder
+  exo-pin study --simulate --runs 50 --patients none plegic --delays 0 0.005     the share that walks
 
 The same command continues a study that was interrupted. A finished study may get more devices, speeds,
 statures or recordings: existing rows are not computed again, unless they were edited or made by another
@@ -43,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.epilog = _EXAMPLES
     parser.add_argument(
-        "-o", "--output", metavar="FILE", default="study.csv", help="the table (default: study.csv)"
+        "-o", "--output", metavar="FILE", help="the table (default: study.csv; simulated.csv)"
     )
     parser.add_argument("--page", metavar="FILE", help="the figures (default: the table's name with .html)")
     parser.add_argument("--no-page", action="store_true", help="the table alone")
@@ -53,6 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--jobs", type=int, default=1, metavar="N", help="processes; -1: one per core (default: 1)"
     )
     _configure_plan(parser)
+    simulated_study.add(parser)
 
 
 def _configure_plan(parser: argparse.ArgumentParser) -> None:
@@ -94,7 +96,11 @@ def run(args: argparse.Namespace) -> int:
     """Study, write, print."""
     from exo_pin import study
 
+    simulated_study.check(args)
+    args.output = args.output or (simulated_study.TABLE if args.simulate else "study.csv")
     _check_names(args)
+    if args.simulate:
+        return simulated_study.run(args)
     cases, start = _plan(args), time.perf_counter()
     try:
         done = study.run(cases, args.output, jobs=args.jobs, restart=args.restart, progress=_progress)
@@ -121,7 +127,7 @@ def _check_names(args: argparse.Namespace) -> None:
     if args.recordings and Path(args.recordings).resolve() in Path(args.output).resolve().parents:
         why = "the next run would take the table for a recording; choose another place for it"
         raise DescriptionError(f"{args.output} is in the folder of the recordings: {why}")
-    if args.body and not args.recordings:
+    if args.body and not (args.recordings or args.simulate):
         raise DescriptionError("--body is for --recordings; the normal walk is studied on --statures")
     if args.body and args.statures:
         raise DescriptionError("--body and --statures exclude each other: both set who wears the recordings")
