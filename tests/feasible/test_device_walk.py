@@ -16,7 +16,7 @@ from exo_pin.cli import main
 from exo_pin.compare import Conditions, compare, dressed
 from exo_pin.devices import DEVICES
 from exo_pin.feasible import device_walk, feasible, pelvis_by_default
-from exo_pin.formats import load_gait
+from exo_pin.formats import load_gait, save_gait
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.ground import place_walk
 from exo_pin.kinematics import poses, spatiotemporal, with_events
@@ -145,6 +145,19 @@ def test_a_walk_that_cannot_be_slowed_enough_has_a_warning():
     found = device_walk(normative_gait("very_fast"), "lokomat")
     assert found.verdict == "no"
     assert f"the belt runs at {found.belt:.2f} m/s here" in found.belt_warning
+
+
+def test_edit_judges_the_fitted_walk_on_the_device_that_it_was_fitted_to(tmp_path, capsys):
+    """The joints that H2 locks may turn faster than exo12's motors."""
+    walk = normative_gait()
+    q = walk.q.copy()
+    k = JOINTS.index("left_hip_rotation")
+    q[:, k] = 0.2 * np.sin(10 * np.pi * walk.time / walk.duration)
+    path, fitted = tmp_path / "walk.npz", tmp_path / "fitted.csv"
+    save_gait(dataclasses.replace(walk, q=q), path)
+    assert main(["edit", str(path), str(fitted), "--fit", "h2"]) == 0
+    assert "left_hip_rotation" not in capsys.readouterr().out
+    assert main(["edit", str(path), str(tmp_path / "same.csv")]) == 1
 
 
 def test_too_much_of_a_change_is_no_concession(capsys, tmp_path):

@@ -99,7 +99,8 @@ def run(args: argparse.Namespace) -> int:
         fitted = _fitted(args, body, gait)
         if fitted is None:
             return 1
-        gait, checks["fitted"] = fitted, edit.recheck(robot, fitted)
+        gait, device = fitted
+        checks["fitted"] = edit.recheck(device, gait)
     save_gait(gait, args.output)
     if args.json:
         steps = [{"step": name, **found.facts()} for name, found in checks.items()]
@@ -214,15 +215,18 @@ def _time(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gai
     return edit.retimed(gait, factor=args.slower, duration=args.duration)
 
 
-def _fitted(args: argparse.Namespace, body: Body, gait: Gait) -> Gait | None:
-    """The walk that the device of `--fit` can do; None, with the reason on stderr, where it fits none."""
+def _fitted(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Gait, Robot] | None:
+    """The walk that the device of `--fit` can do, and the device; None and why on stderr if it fits none."""
     import dataclasses
 
     from exo_pin.feasible import device_walk
 
     found = device_walk(gait, args.fit, body, knee=args.knee)
     print(found.sentence if found.ok else f"exo-pin: {found.sentence}", file=sys.stderr)
-    return dataclasses.replace(found.gait, source=f"{gait.source}; {found.sentence}") if found.ok else None
+    if not found.ok:
+        return None
+    walk = dataclasses.replace(found.gait, source=f"{gait.source}; {found.sentence}")
+    return walk, found.as_recorded.robot  # the joints that it locks have no limits to keep
 
 
 def _ramp(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
