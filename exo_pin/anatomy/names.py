@@ -41,8 +41,8 @@ EventKind = Literal["heel_strike", "toe_off"]
 """Initial contact of a foot, or the moment it leaves the ground."""
 Masses = Literal["wearer", "device", "both"]
 """Whose mass moves: the person's alone, the exoskeleton's alone, or both."""
-Reaction = Literal["measured", "predicted"]
-"""Where the ground reaction comes from: force plates, or an assumption about the walk."""
+Reaction = Literal["measured", "predicted", "planned"]
+"""Where the ground reaction comes from: force plates, an assumption, or the plan of the walk."""
 PlausibilityWord = Literal["plausible", "doubtful"]
 """The verdict on a walk as it was read."""
 Manner = Literal["walk", "run"]

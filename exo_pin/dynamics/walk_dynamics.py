@@ -38,7 +38,7 @@ class Dynamics:
             [N, N m], the body-weight support included. With plates it is what the model does not explain.
         ground: Forces of the ground on the feet, `(n, 2, 3)` each; NaN in frames that are not valid.
         valid: `(n,)` whether the ground reaction of every standing foot is known.
-        reaction: `"measured"` by force plates, or `"predicted"`: an assumption.
+        reaction: `"measured"` by force plates, `"predicted"`: an assumption, or `"planned"` with the walk.
         masses: Whose masses move.
         mass: Their sum [kg].
         body_weight_support: Constant vertical force on the pelvis, as a part of the weight of that mass.

@@ -55,7 +55,7 @@ def planned_dynamics(robot: Robot, plan: Course, body: WholeBody) -> Dynamics:
         support_wrench=in_world_axes(body.motion.base, tau),
         ground=ground,
         valid=np.ones(len(plan.time), dtype=bool),
-        reaction="predicted",
+        reaction="planned",
         masses="both",
         mass=mass,
         body_weight_support=0.0,

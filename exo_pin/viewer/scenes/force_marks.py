@@ -13,6 +13,7 @@ from exo_pin.ground import PlacedWalk
 from exo_pin.viewer.meshes.solids import Solid
 from exo_pin.viewer.scenes.kinetics import Kinetics, Origin
 from exo_pin.viewer.scenes.link_nodes import Linkage
+from exo_pin.viewer.scenes.pendulum_mark import pendulum_mark
 from exo_pin.viewer.scenes.scene import ROOT, Arc, Arrow, ForceMarks, Group, JointNode, Key
 
 _WEIGHT_LONG = 0.6
@@ -39,16 +40,19 @@ _WIDE = 0.12
 _REACTION: Mapping[Origin, str] = {
     "measured": "ground reaction, measured",
     "predicted": "ground reaction, predicted",
+    "planned": "ground reaction, planned",
     "simulated": "ground reaction, simulated",
 }
 _HELD: Mapping[Origin, str] = {
     "measured": "residual force",
     "predicted": "support force, predicted",
+    "planned": "support force, planned",
     "simulated": "support force",
 }
 _HINTS: Mapping[Origin, str] = {
     "measured": "What the model does not explain; it acts on the pelvis in the inverse dynamics.",
     "predicted": "What the pelvis must be held with if the ground reaction is as predicted.",
+    "planned": "None: the ground alone carries a planned walk.",
     "simulated": "Of the balance support on the pelvis.",
 }
 
@@ -86,8 +90,13 @@ def shown_forces(kinetics: Kinetics, walk: PlacedWalk, tree: Linkage) -> ShownFo
     if kinetics.effort is not None:
         arrays["load"] = kinetics.effort.load
     length = _WEIGHT_LONG / kinetics.weight
+    groups, keys = _groups(kinetics, arrows, arcs), _keys(kinetics, peak)
+    pendulum = pendulum_mark(kinetics, walk, length)
+    if pendulum is not None:
+        arrows, arrays = (*arrows, pendulum.arrow), arrays | pendulum.arrays
+        groups, keys = (*groups, pendulum.group), (*keys, *pendulum.keys)
     marks = ForceMarks(arrows, length, arcs, "torque", peak / _FULL_ARC, "load" if loaded else "")
-    return ShownForces(marks, arrays, _groups(kinetics, arrows, arcs), _keys(kinetics, peak))
+    return ShownForces(marks, arrays, groups, keys)
 
 
 def _arrows(kinetics: Kinetics, walk: PlacedWalk) -> tuple[tuple[Arrow, ...], dict[str, Array]]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from exo_pin.dynamics import Dynamics
     from exo_pin.simulation import Run
 
-Origin = Literal["measured", "predicted", "simulated"]
+Origin = Literal["measured", "predicted", "planned", "simulated"]
 """Where a ground reaction comes from."""
 
 _SAME = 1e-6

@@ -75,6 +75,8 @@ def notes(kinetics: Kinetics | None) -> list[str]:
         return []
     words = f"Forces and torques: {kinetics.source}. A torque is positive the way its joint is named, "
     words += "a power where the joint gives energy. "
+    if kinetics.origin == "planned":
+        words += "The ground reaction is planned with the walk: it was not measured."
     if kinetics.origin == "predicted":
         words += "The ground reaction is predicted from the motion, an assumption: it was not measured."
     if kinetics.origin == "measured":
