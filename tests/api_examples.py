@@ -14,6 +14,7 @@ from exo_pin import (
     compare,
     description,
     devices,
+    dh,
     dynamics,
     feasible,
     formats,
@@ -23,9 +24,11 @@ from exo_pin import (
     retarget,
     simulation,
     sizing,
+    study,
     walking,
 )
 from exo_pin.anatomy import CORNERS, FEET, JOINTS, Body
+from exo_pin.crosscheck.dynamics_witnesses import link_inertials
 from exo_pin.formats import Markers, ReadOptions
 from exo_pin.gait import Gait, Number, StrideEstimate, Torques, normative_gait
 from exo_pin.markers.marker_sets import SETS
@@ -165,6 +168,53 @@ class Examples:
         return path
 
     @functools.cached_property
+    def marker_file(self) -> Path:
+        path, names = self.folder / "walk.trc", self.trial.names
+        head = ["PathFileType\t4\t(X/Y/Z)\twalk.trc", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits"]
+        head += [f"100\t100\t3\t{len(names)}\tm", "Frame#\tTime\t" + "\t\t\t".join(names)]
+        head += ["\t\t" + "\t".join(f"X{k}\tY{k}\tZ{k}" for k in range(1, len(names) + 1)), ""]
+        rows = zip(self.trial.time, self.trial.position, strict=True)
+        lines = ["\t".join(map(str, (k + 1, t, *p.ravel()))) for k, (t, p) in enumerate(rows)]
+        path.write_text("\n".join([*head, *lines, ""]))
+        return path
+
+    @functools.cached_property
+    def named_file(self) -> Path:
+        """A table whose columns have names of their own."""
+        path = self.folder / "named.csv"
+        rows = np.column_stack([self.gait.time, np.degrees(self.gait.q)])
+        lines = [",".join(f"{x:.6f}" for x in row) for row in rows]
+        path.write_text("\n".join([",".join(_COLUMNS), *lines, ""]))
+        return path
+
+    @functools.cached_property
+    def force_file(self) -> Path:
+        path = self.folder / "forces.mot"
+        names = [f"ground_force_{what}{axis}" for what in "vp" for axis in "xyz"]
+        names += [f"ground_torque_{axis}" for axis in "xyz"]
+        rows = (f"{k / 100}\t0\t700\t0\t0\t0\t0\t0\t0\t0" for k in range(20))
+        path.write_text("\n".join(["endheader", "\t".join(["time", *names]), *rows]) + "\n")
+        return path
+
+    @functools.cached_property
+    def torque_file(self) -> Path:
+        path = self.folder / "torques.csv"
+        formats.save_torques(self.torques, path)
+        return path
+
+    @functools.cached_property
+    def set_file(self) -> Path:
+        path = self.folder / "set.toml"
+        path.write_text((SIZING.parent / "markers/sets/plug-in-gait.toml").read_text())
+        return path
+
+    @functools.cached_property
+    def study_file(self) -> Path:
+        path = self.folder / "study.csv"
+        study.save((), path)
+        return path
+
+    @functools.cached_property
     def patient_file(self) -> Path:
         path = self.folder / "patient.toml"
         path.write_text("[activity]\nright = 0.5\n")
@@ -220,6 +270,8 @@ _NUMBERS = {"speed": Number(1.2, 0.1, 4, "m/s")}
 _TIME = np.arange(40.0) / 100
 _WAVES = np.stack([np.sin(9 * _TIME), np.cos(7 * _TIME)], axis=1)
 
+_COLUMNS = ("t", *(f"angle{k}" for k in range(len(JOINTS))))
+
 _BY_NAME: Mapping[str, Any] = {
     "acceleration": lambda e: 150.0,
     "assist": lambda e: 0.5,
@@ -241,6 +293,7 @@ _BY_NAME: Mapping[str, Any] = {
     "dq": lambda e: np.ones((3, e.robot.model.nv)),
     "dt": lambda e: 1e-3,
     "dynamics": lambda e: e.dynamics,
+    "double_support": lambda e: 0.2,
     "efficiency": lambda e: 0.8,
     "events": lambda e: e.gait.events,
     "factor": lambda e: 1.1,
@@ -293,6 +346,7 @@ _BY_NAME: Mapping[str, Any] = {
     "speed": lambda e: "free",
     "stature": lambda e: 1.8,
     "stride": lambda e: 1.05,
+    "step_time": lambda e: 0.8,
     "style": lambda e: "carried",
     "subject": lambda e: "the gait",
     "support": lambda e: "carried",
@@ -429,6 +483,50 @@ _OWN: Mapping[str, Any] = {
     "sizing.load_motor.path": lambda e: e.motor_file,
     "sizing.size.stride": lambda e: 1.1,
     "sizing.worst_cases.people": lambda e: (e.body,),
+    "dh.inverse_dynamics.inertias": lambda e: link_inertials(e.robot),
+    "dh.inverse_dynamics.pelvis": lambda e: dh.PelvisState(e.gait.base[:3], np.ones((3, 6)), np.ones((3, 6))),
+    "dh.inverse_dynamics.joints": lambda e: {"left_knee_flexion": dh.JointState(*np.ones((3, 3)))},
+    "dh.inverse_dynamics.wrenches": lambda e: {"left_foot": np.ones((3, 6))},
+    "formats.TrialFile.with_length_unit.unit": lambda e: "mm",
+    "formats.load_forces.path": lambda e: e.force_file,
+    "formats.load_gait.columns": lambda e: (),
+    "formats.load_gait.mapping": lambda e: dict(zip(_COLUMNS, ("time", *JOINTS), strict=True)),
+    "formats.load_gait.path": lambda e: e.named_file,
+    "formats.load_gait.pelvis_order": lambda e: None,
+    "formats.load_gait.row_rate": lambda e: None,
+    "formats.load_gait.preset": lambda e: None,
+    "formats.load_gait.units": lambda e: "deg",
+    "formats.load_markers.path": lambda e: e.marker_file,
+    "formats.load_torques.path": lambda e: e.torque_file,
+    "formats.load_torques.preset": lambda e: None,
+    "formats.open_trial.content": lambda e: "angles",
+    "formats.save_gait.preset": lambda e: None,
+    "formats.save_torques.path": lambda e: e.folder / "saved_torques.csv",
+    "formats.save_torques.preset": lambda e: None,
+    "markers.load_set.path": lambda e: e.set_file,
+    "markers.load_walk.path": lambda e: e.marker_file,
+    "markers.load_walk.static": lambda e: None,
+    "markers.load_walk.markers": lambda e: None,
+    "markers.load_walk.mapping": lambda e: None,
+    "markers.reconstruct.markers": lambda e: None,
+    "markers.reconstruct.static": lambda e: None,
+    "markers.model_set.path": lambda e: e.marker_file,
+    "markers.reconstruct.mass": lambda e: 70.0,
+    "study.load.path": lambda e: e.study_file,
+    "study.recordings.folder": lambda e: e.walk_file.parent,
+    "study.recordings.conditions": lambda e: (compare.Conditions(),),
+    "study.recordings.preset": lambda e: None,
+    "study.run.cases": lambda e: (),
+    "study.run.jobs": lambda e: 1,
+    "study.run.path": lambda e: e.folder / "study_run.csv",
+    "study.save.path": lambda e: e.folder / "study_saved.csv",
+    "study.save.rows": lambda e: (),
+    "walking.com_of_zmp.height": lambda e: 0.9,
+    "walking.divergent_component.height": lambda e: 0.9,
+    "walking.fall.height": lambda e: 0.9,
+    "walking.orbital_energy.height": lambda e: 0.9,
+    "walking.time_constant.height": lambda e: 0.9,
+    "walking.zmp_of_com.height": lambda e: 0.9,
     "anatomy.Body.load.path": lambda e: e.body_file,
     "anatomy.Body.save.path": lambda e: e.folder / "saved.toml",
     "compare.Loss.in_phases.errors": lambda e: np.ones((_SAMPLES, 2)),
@@ -568,8 +666,8 @@ _OWN: Mapping[str, Any] = {
     "report.walk.normal": lambda e: "free",
     "retarget.Target.file": lambda e: e.urdf_file,
     "retarget.Target.feet": lambda e: ("left_foot", "right_foot"),
-    "retarget.Target.forward": lambda e: "+x",
-    "retarget.Target.up": lambda e: "+z",
+    "retarget.Target.forward": lambda e: "x",
+    "retarget.Target.up": lambda e: "z",
     "retarget.Target.stand": lambda e: {"left_knee_flexion": 0.1},
     "retarget.Target.limits": lambda e: {"left_knee_flexion": (0.0, 1.0)},
     "retarget.Target.locked": lambda e: ("left_ankle_inversion",),
@@ -626,6 +724,7 @@ _INSTANCES: Mapping[str, Any] = {
     "Gait": lambda e: e.gait,
     "Loss": lambda e: e.loss,
     "MarkerSet": lambda e: next(iter(SETS.values())),
+    "Footsteps": lambda e: walking.footsteps(2),
     "Markers": lambda e: e.trial,
     "Number": lambda e: _NUMBERS["speed"],
     "Online": lambda e: ik.Online(e.robot, frames=("left_foot",)),
@@ -635,7 +734,6 @@ _INSTANCES: Mapping[str, Any] = {
     "Motor": lambda e: sizing.find_motor(e.motor_file),
     "Spring": lambda e: sizing.Spring(100.0, 0.1),
     "StrideEstimate": lambda e: e.stride,
-    "Footsteps": lambda e: e.footsteps,
     "Preview": lambda e: walking.Preview(0.02, 0.9, horizon=0.2),
     "WorstCase": lambda e: sizing.worst_cases("exo12", people=(e.body,))[0],
     "Torques": lambda e: e.torques,

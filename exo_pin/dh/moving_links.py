@@ -9,6 +9,7 @@ import numpy as np
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.inertia import Inertial, total
 from exo_pin.anatomy.names import SIDES, HipOrder, Side
+from exo_pin.arguments import word
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.recursion import Link, tree
@@ -40,7 +41,14 @@ def moving_masses(
         inertias: By name of the URDF's link, each in its own axes.
         hip_order: Order of the hip joints.
         toes: Whether the foot plate ends at the ball.
+
+    Raises:
+        UnknownNameError: A link has no inertia.
     """
+    needed = [PELVIS, *(f"{side}_{link}" for side in SIDES for link in _LINKS)]
+    needed += [name for side in SIDES for name in _sole_frames(body, side)]
+    for name in (*needed, *(f"{side}_toe_plate" for side in SIDES if toes)):
+        word("link with an inertia", name, inertias)
     moved = {PELVIS: inertias[PELVIS]}
     for side in SIDES:
         for link, movement in zip(_LINKS, chain(hip_order), strict=True):

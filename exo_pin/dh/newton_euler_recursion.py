@@ -7,18 +7,21 @@ All vectors are in world axes, all samples are worked on at once: NumPy alone.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from exo_pin.anatomy import FEET
 from exo_pin.anatomy.body import Body
 from exo_pin.anatomy.inertia import Inertial
 from exo_pin.anatomy.names import HipOrder
+from exo_pin.arguments import real, table, word
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain
 from exo_pin.dh.moving_links import PELVIS, links_with_toes, moving_masses
 from exo_pin.dh.recursion import Link, joint_pose
+from exo_pin.errors import DescriptionError
 from exo_pin.physics import GRAVITY
 
 _LIFT = np.array([0.0, 0.0, GRAVITY])
@@ -90,8 +93,16 @@ def inverse_dynamics(
             the world's origin [N, N m].
         hip_order: Order of the hip joints.
         toes: Whether the feet have toe joints.
+
+    Raises:
+        DescriptionError: A shape differs, or a number is not finite.
+        UnknownNameError: There is no such foot, joint or order of the hip joints, or a link has no inertia.
     """
     links = links_with_toes(body, hip_order, toes=toes)
+    _check([link.name for link in links], pelvis, joints, wrenches)
+    for name, inertia in table("inertias", inertias).items():
+        if not isinstance(inertia, Inertial):
+            raise DescriptionError(f"the inertia of {name} is no Inertial; one is accepted")
     masses = moving_masses(body, inertias, hip_order, toes=toes)
     still = np.zeros(len(pelvis.pose))
     motions = {PELVIS: _of_pelvis(pelvis)}
@@ -111,6 +122,30 @@ def inverse_dynamics(
         needed[link.mother] = needed[link.mother] + needed[link.name]
     force, moment = needed[PELVIS][:, :3], needed[PELVIS][:, 3:]
     return Needed(np.hstack([force, moment - np.cross(pelvis.pose[:, :3, 3], force)]), torques)
+
+
+def _check(
+    known: Sequence[str], pelvis: PelvisState, joints: Mapping[str, JointState], wrenches: Mapping[str, Array]
+) -> None:
+    """Refuse arrays of other shapes, and numbers that are not finite.
+
+    Args:
+        known: Names of the joints.
+        pelvis: Its motion.
+        joints: Motion by joint name.
+        wrenches: By foot.
+    """
+    n = len(real("pose of the pelvis", pelvis.pose, ("n", 4, 4)))
+    for what, values in (("velocity", pelvis.velocity), ("acceleration", pelvis.acceleration)):
+        real(f"{what} of the pelvis", values, (n, 6))
+    for name, state in table("joints", joints).items():
+        word("joint", name, known)
+        if not isinstance(state, JointState):
+            raise DescriptionError(f"the motion of {name} is no JointState; one is accepted")
+        for what, values in state._asdict().items():
+            real(f"{what} of {name}", values, (n,))
+    for foot, wrench in table("wrenches", wrenches).items():
+        real(f"wrench on the {word('foot', foot, FEET)}", wrench, (n, 6))
 
 
 def _of_pelvis(pelvis: PelvisState) -> _LinkMotion:

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TypeVar
 
 from exo_pin.anatomy.names import AngleUnit, PelvisRotation, SignPreset
+from exo_pin.arguments import names, number, several, table, text
 from exo_pin.errors import FormatError
 from exo_pin.formats.opensim import StorageFile, write_gait, write_torques
 from exo_pin.formats.read_options import ReadOptions
@@ -60,7 +61,14 @@ def load_gait(
     Raises:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
         UnknownNameError: There is no such preset, joint, unit or order.
+        DescriptionError: A mapping, order, list of columns or row rate is none.
     """
+    for column, joint in table("mapping", mapping).items():
+        text(f"mapping of {column}", joint)
+    columns = names("columns", columns)
+    order = None if pelvis_order is None else several("pelvis_order", pelvis_order)
+    if row_rate is not None:
+        number("row_rate", row_rate, above=0.0)
     name = path.path if isinstance(path, TrialFile) else Path(path)
     if name.suffix.lower() not in TABLE_SUFFIXES and (columns or row_rate is not None):
         find_format(name, "angles", {**FORMATS, **MARKER_FORMATS})
@@ -70,9 +78,8 @@ def load_gait(
     if not isinstance(file, StorageFile) and (model or pelvis_order):
         why = "a model (.osim) or an order of the pelvis's rotations is for .mot and .sto files"
         raise FormatError(name, f"{why}, and for their columns in a .csv")
-    order = None if pelvis_order is None else tuple(pelvis_order)
     osim = None if model is None else Path(model)
-    options = ReadOptions(preset, mapping, units, osim, order, tuple(columns), row_rate)
+    options = ReadOptions(preset, mapping, units, osim, order, columns, row_rate)
     return _on_even_clock(name, file.gait(options))
 
 
@@ -104,9 +111,12 @@ def load_torques(
         mass: Of the person [kg], for moments per kg; None: as the file has it.
 
     Raises:
+        DescriptionError: The mass is not positive.
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
         UnknownNameError: There is no such preset.
     """
+    if mass is not None:
+        number("mass", mass, above=0.0)
     torques = _opened(path, "torques").torques(preset, mass)
     even = even_clock(torques.time)  # as the walk's, so that both keep the same clock
     return torques if even is None else replace(torques, time=even)

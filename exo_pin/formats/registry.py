@@ -6,8 +6,9 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
+from exo_pin.arguments import word
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, motion_bids, nexus, opensim, tables, xsens
 from exo_pin.formats.gait_cycle_data import open_gcd
@@ -155,8 +156,11 @@ def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
 
     Raises:
         FormatError: The file cannot be read; with file, line, reason and what would be accepted.
+        UnknownNameError: There is no such content.
     """
     path = Path(path)
+    if content is not None:
+        word("content", content, get_args(Content))
     known = formats_of(content) if content else {**MARKER_FORMATS, **FORMATS}
     entry = find_format(path, content or "angles", known)
     special = _recognised(path, _ALL)

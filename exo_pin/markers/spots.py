@@ -7,7 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, get_args
 
+from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import HipRegression, Segment, Side
+from exo_pin.arguments import names, number, real, table, text, word
+from exo_pin.errors import DescriptionError
 from exo_pin.markers.person_sizes import Sizes
 
 SEGMENTS: tuple[Segment, ...] = get_args(Segment)
@@ -54,6 +57,10 @@ class MarkerSet:
         also: Marker -> further names that laboratories give it.
         known_as: Further names of the set.
         sizes: Of the person, where the set is a model that was scaled to one; places are fixed then.
+
+    Raises:
+        DescriptionError: An entry is of a wrong kind, or a number is not finite.
+        UnknownNameError: There is no such segment, side or rule for the hip centres.
     """
 
     name: str
@@ -65,17 +72,51 @@ class MarkerSet:
     known_as: tuple[str, ...] = ()
     sizes: Sizes | None = None
 
+    def __post_init__(self) -> None:
+        if isinstance(self.hips, str):
+            word("rule for the hip centres", self.hips, get_args(HipRegression))
+        else:
+            number("hips", self.hips, above=0.0)
+        for marker, spot in table("spots", self.spots).items():
+            _check(marker, spot)
+        for marker, further in table("also", self.also).items():
+            names(f"further names of {marker}", further)
+
     def names(self, marker: str) -> tuple[str, ...]:
-        """All names of a marker."""
-        return (marker, *self.also.get(marker, ()))
+        """All names of a marker.
+
+        Raises:
+            DescriptionError: The marker is no text.
+        """
+        return (text("marker", marker), *self.also.get(marker, ()))
 
     def marking(self, landmark: str, side: Side | None = None) -> tuple[str, ...]:
-        """The markers of a landmark, on one side or (pelvis) both."""
+        """The markers of a landmark, on one side or (pelvis) both.
+
+        Raises:
+            DescriptionError: The landmark is no text.
+            UnknownNameError: There is no such side.
+        """
+        text("landmark", landmark)
+        if side is not None:
+            word("side", side, SIDES)
         return tuple(
             name
             for name, spot in self.spots.items()
             if spot.landmark == landmark and side in (None, side_of(spot))
         )
+
+
+def _check(marker: str, spot: Spot) -> None:
+    """Refuse a spot with a wrong value."""
+    if not isinstance(spot, Spot):
+        raise DescriptionError(f"the place of marker {marker} is no Spot; one is accepted")
+    word(f"segment of marker {marker}", spot.segment, SEGMENTS)
+    if spot.side is not None:
+        word(f"side of marker {marker}", spot.side, SIDES)
+    real(f"place of marker {marker}", spot.place, (3,))
+    number(f"spread of marker {marker}", spot.spread, least=0.0)
+    text(f"landmark of marker {marker}", spot.landmark)
 
 
 def side_of(spot: Spot) -> Side | None:

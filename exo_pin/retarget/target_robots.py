@@ -8,6 +8,10 @@ from math import radians
 from pathlib import Path
 from types import MappingProxyType
 
+from exo_pin.arguments import names, number, real, table, text, word
+from exo_pin.errors import DescriptionError
+from exo_pin.retarget.axes import SIGNED_AXES
+
 Pair = tuple[float, float]
 
 
@@ -29,6 +33,11 @@ class Target:
         paint: Colour and opacity (RGBA) to draw it in; None: its own colours.
         licence: Owner and licence of its files, as example-robot-data states them.
         remarks: Known peculiarities of the robot or its files.
+
+    Raises:
+        DescriptionError: An entry is of a wrong kind, a number is not finite, or a lower limit is not below
+            the upper one. Names of joints and links are looked up when the robot is loaded.
+        UnknownNameError: An axis is none of `SIGNED_AXES`.
     """
 
     name: str
@@ -43,6 +52,24 @@ class Target:
     paint: tuple[float, float, float, float] | None = None
     licence: str = ""
     remarks: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("name", "title", "licence", "remarks"):
+            text(name, getattr(self, name))
+        if not isinstance(self.file, str | Path):
+            raise DescriptionError(f"file is {self.file!r}; a path is accepted")
+        names("locked", self.locked)
+        if len(names("feet", self.feet)) not in (0, 2):
+            raise DescriptionError(f"feet are {', '.join(self.feet)}; a left and a right link are accepted")
+        for name, axis in (("forward", self.forward), ("up", self.up)):
+            word(f"axis ({name})", axis, ("", *SIGNED_AXES))
+        for joint, angle in table("stand", self.stand).items():
+            number(f"stand of {joint}", angle)
+        for joint, span in table("limits", self.limits).items():
+            low, high = real(f"limits of {joint}", span, (2,)).tolist()
+            number(f"upper limit of {joint}", high, above=low)
+        if self.paint is not None:
+            real("paint", self.paint, (4,))
 
 
 def _both(limits: Mapping[str, Pair], mirrored: Mapping[str, Pair]) -> Mapping[str, Pair]:

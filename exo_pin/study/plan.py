@@ -131,17 +131,20 @@ def recordings(
         preset: Sign convention of files that do not state it.
 
     Raises:
-        FormatError: The folder does not exist, or holds no such file.
+        FormatError: The folder does not exist, cannot be searched, or holds no such file.
     """
     folder, parts = Path(folder), _parts(conditions, devices)
     if not folder.is_dir():
         raise FormatError(folder, "not a folder" if folder.exists() else "no such folder")
     endings = sorted({*FORMATS, *MARKER_FORMATS} - _MAPPED)
-    names = sorted(
-        path.relative_to(folder).as_posix()
-        for path in folder.rglob("*")
-        if path.suffix.lower() in endings and path.is_file() and not _hidden(path.relative_to(folder))
-    )
+    try:
+        names = sorted(
+            path.relative_to(folder).as_posix()
+            for path in folder.rglob("*")
+            if path.suffix.lower() in endings and path.is_file() and not _hidden(path.relative_to(folder))
+        )
+    except OSError as error:  # a folder in it that vanishes, or that cannot be read
+        raise FormatError(folder, f"cannot be searched: {error.strerror}") from None
     if not names:
         raise FormatError(folder, f"holds no recording; one ends in {', '.join(endings)}")
     code = code_digest()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exo_pin.anatomy import FEET
+from exo_pin.arguments import table
 from exo_pin.arrays import Array
 from exo_pin.errors import FormatError, GaitError, UnknownNameError, naming_file
 from exo_pin.files import read_lines
@@ -64,6 +65,7 @@ class Poses:
         source: str = "",
         remarks: Iterable[str] = (),
     ) -> None:
+        table("targets", targets, error=GaitError)
         set_fields(
             self,
             time=frozen(time, "time"),
