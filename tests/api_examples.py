@@ -724,7 +724,7 @@ _INSTANCES: Mapping[str, Any] = {
     "Gait": lambda e: e.gait,
     "Loss": lambda e: e.loss,
     "MarkerSet": lambda e: next(iter(SETS.values())),
-    "Footsteps": lambda e: walking.footsteps(2),
+    "Footsteps": lambda e: e.footsteps,
     "Markers": lambda e: e.trial,
     "Number": lambda e: _NUMBERS["speed"],
     "Online": lambda e: ik.Online(e.robot, frames=("left_foot",)),

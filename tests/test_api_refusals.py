@@ -170,7 +170,7 @@ def test_targets_are_checked_where_they_are_solved(
         ("word", "gait.strides"),
         ("table", "edit.scaled"),
         ("word", "sizing.WorstCase.worst"),
-        ("real", "retarget.Target"),
+        ("number", "retarget.Target"),
         ("number", "markers.MarkerSet"),
         ("real", "dynamics.in_pelvis_axes"),
         ("number", "simulation.Floor"),
