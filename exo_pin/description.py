@@ -17,7 +17,7 @@ from exo_pin.anatomy import HIP_ORDERS, JOINTS, SIDES, Body
 from exo_pin.anatomy.inertia import Inertial, link_inertias
 from exo_pin.anatomy.names import HipOrder, Masses
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked
-from exo_pin.arguments import table, word
+from exo_pin.arguments import table, text, word
 from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.safe import plain_numbers
@@ -101,7 +101,12 @@ def arguments_xacro(values: Mapping[str, str], comment: str) -> str:
     Args:
         values: Of `arguments`.
         comment: The comment above them.
+
+    Raises:
+        DescriptionError: A value is no text.
     """
+    for name, value in table("values", values).items():
+        text(name, value)
     rows = (f'  <xacro:arg name="{name}" default="{value}"/>\n' for name, value in values.items())
     head = f'<?xml version="1.0"?>\n<!-- {comment} -->\n<robot xmlns:xacro="{XACRO}">\n'
     return f"{head}{''.join(rows)}</robot>\n"

@@ -535,6 +535,8 @@ _OWN: Mapping[str, Any] = {
     "demand.peak_demands.joints": lambda e: JOINTS[:2],
     "demand.peak_demands.required": lambda e: np.ones((3, 2)),
     "demand.peak_demands.available": lambda e: np.ones(2),
+    "description.arguments_xacro.values": lambda e: description.arguments(e.body),
+    "description.arguments_xacro.comment": lambda e: "a comment",
     "description.expand.values": lambda e: description.arguments(e.body),
     "devices.Actuator.effort": lambda e: 100.0,
     "devices.Actuator.velocity": lambda e: 5.0,

@@ -32,6 +32,7 @@ _MEANT: Mapping[str, set[str]] = {
     "demand.peak_demands.available": {"inf", "one axis less", "integer"},
     "demand.peak_demands.required": {"nan", "one row less"},
     "demand.range_demands.q": {"one row less"},
+    "description.arguments_xacro.values": {"unknown name"},
     "description.expand.values": {"unknown name"},
     "devices.movement_of.joint": {"unknown", "empty text"},
     "dynamics.in_world_axes.tau": {"nan", "one number less"},
@@ -154,9 +155,9 @@ KERNELS = {
 """Methods, or whole classes, that run inside solvers and loops or answer a browser: checked before."""
 
 LABELS = {
-    "by", "choices", "compare_title", "failures", "known_as", "licence", "name", "note", "notes", "player",
-    "recording_name", "reference_title", "remarks", "source", "subject", "subtitle", "title", "token", "unit",
-    "what", "when", "who", "why", "more", "code", "version",
+    "by", "choices", "comment", "compare_title", "failures", "known_as", "licence", "name", "note", "notes",
+    "player", "recording_name", "reference_title", "remarks", "source", "subject", "subtitle", "title", "token",
+    "unit", "what", "when", "who", "why", "more", "code", "version",
 }  # fmt: skip
 """Arguments that hold words for people: any text is right."""
 
