@@ -156,8 +156,8 @@ KERNELS = {
 
 LABELS = {
     "by", "choices", "comment", "compare_title", "failures", "known_as", "licence", "name", "note", "notes",
-    "player", "recording_name", "reference_title", "remarks", "source", "subject", "subtitle", "title", "token",
-    "unit", "what", "when", "who", "why", "more", "code", "version",
+    "player", "recording_name", "reference_title", "remarks", "source", "subject", "subtitle", "title",
+    "token", "unit", "what", "when", "who", "why", "more", "code", "version",
 }  # fmt: skip
 """Arguments that hold words for people: any text is right."""
 
