@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pinocchio as pin
 
@@ -9,16 +11,19 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 
+ARMATURE = 0.05
+"""Rotor inertia at each driven joint [kg m^2]: a motor of 1.2e-4 kg m^2 behind a gear of 20:1 has 0.048."""
+
 
 class HeldLegs:
-    """Inverse dynamics of the legs about a held pelvis, one sample at a time, by Pinocchio.
+    """Inverse dynamics of the legs about a held pelvis, rotors included, one sample at a time, by Pinocchio.
 
     Args:
         robot: The model that the controller believes in.
     """
 
     def __init__(self, robot: Robot) -> None:
-        self._model, self._data = robot.model, robot.model.createData()
+        self._model, self._data = with_rotors(robot), robot.model.createData()
         self._rest = np.array(robot.neutral)
         names = [name for name in robot.joints if name in JOINTS]
         self._ours = [JOINTS.index(name) for name in names]
@@ -33,3 +38,12 @@ class HeldLegs:
         out = np.zeros(len(JOINTS))
         out[self._ours] = pin.rnea(self._model, self._data, position, *rates)[self._dofs]
         return out
+
+
+def with_rotors(robot: Robot) -> Any:
+    """Pinocchio's model with the rotors' inertia at the driven joints."""
+    model = robot.model.copy()
+    armature = np.zeros(model.nv)
+    armature[model.nv - len(robot.joints) :] = np.where(robot.effort > 0.0, ARMATURE, 0.0)
+    model.armature = armature
+    return model

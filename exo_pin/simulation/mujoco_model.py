@@ -9,12 +9,10 @@ import numpy as np
 
 from exo_pin.anatomy import CORNERS
 from exo_pin.arguments import number
+from exo_pin.control.held_legs import ARMATURE
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
-
-ARMATURE = 0.05
-"""Rotor inertia at each driven joint [kg m^2]: a motor of 1.2e-4 kg m^2 behind a gear of 20:1 has 0.048."""
 
 _SPHERE = 0.010
 """Radius of the spheres at the sole corners [m]; the lowest point of each is the corner."""

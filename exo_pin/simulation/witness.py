@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pinocchio as pin
 
 from exo_pin.anatomy import FEET, JOINTS
 from exo_pin.arrays import Array
+from exo_pin.control.held_legs import with_rotors
 from exo_pin.robot import Robot
 from exo_pin.simulation.contact_forces import FloorForces
 from exo_pin.simulation.engine_forces import stop_torques
-from exo_pin.simulation.mujoco_model import ARMATURE
 from exo_pin.simulation.recording import Recording
 
 _FREE = 6
@@ -78,12 +76,3 @@ def _accelerations(robot: Robot, q: Array, v: Array, tau: Array, wrench: Array) 
             forces[joint] = data.oMi[joint].actInv(pin.Force(wrench[k, foot]))
         out[k] = pin.aba(model, data, q[k], v[k], tau[k], forces)
     return out
-
-
-def with_rotors(robot: Robot) -> Any:
-    """Pinocchio's model with the rotors' inertia at the driven joints."""
-    model = robot.model.copy()
-    armature = np.zeros(model.nv)
-    armature[model.nv - len(robot.joints) :] = np.where(robot.effort > 0.0, ARMATURE, 0.0)
-    model.armature = armature
-    return model

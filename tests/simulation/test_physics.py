@@ -8,14 +8,14 @@ import pinocchio as pin
 import pytest
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.control.held_legs import ARMATURE, with_rotors
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
 from exo_pin.simulation import Floor, PelvisSupport, mujoco_model, mujoco_spec, simulate
 from exo_pin.simulation.engine_forces import SOLES
-from exo_pin.simulation.mujoco_model import ARMATURE, FLOOR
+from exo_pin.simulation.mujoco_model import FLOOR
 from exo_pin.simulation.reference_motion import ReferenceMotion
 from exo_pin.simulation.support_force import SupportForce
-from exo_pin.simulation.witness import with_rotors
 
 FREQUENCY = 0.005
 """Largest relative error of a frequency."""
