@@ -121,6 +121,17 @@ def speed_of(gait: Gait) -> Speed | None:
     return None
 
 
+def nearest_speed(stride_time: float, leg_length: float) -> Speed:
+    """The speed of the source whose cadence, for the length of the leg, is nearest to that of a walk.
+
+    Args:
+        stride_time: From one heel strike of a foot to its next [s].
+        leg_length: Hip centre to sole [m].
+    """
+    cadence = 2 / (stride_time * math.sqrt(GRAVITY / leg_length))
+    return min(SPEEDS, key=lambda speed: abs(TIMING[speed]["cadence"] - cadence))
+
+
 def published_curve(speed: Speed, angle: ClinicalAngle) -> tuple[Array, Array]:
     """Mean and standard deviation `(101,)` [rad] of an angle over a side's cycle, heel strike at both ends.
 
@@ -136,12 +147,17 @@ def published_curve(speed: Speed, angle: ClinicalAngle) -> tuple[Array, Array]:
     return _series(means[angle], phase), _series(spreads[angle], phase)
 
 
-def _series(coefficients: tuple[float, ...], phase: Array) -> Array:
-    """`(n,)` angle [rad] from mean, cosines and sines [deg] at phases of the cycle (1 is a full cycle)."""
+def series(coefficients: tuple[float, ...], phase: Array) -> Array:
+    """`(n,)` values of a Fourier series: mean, cosines, sines, at phases of the cycle (1 is a full cycle)."""
     harmonics = len(coefficients) // 2
-    mean, cosines, sines = np.split(np.radians(coefficients), [1, 1 + harmonics])
+    mean, cosines, sines = np.split(np.array(coefficients), [1, 1 + harmonics])
     angle = 2 * np.pi * np.outer(phase, np.arange(1, harmonics + 1))
     return np.asarray(mean + np.cos(angle) @ cosines + np.sin(angle) @ sines)
+
+
+def _series(coefficients: tuple[float, ...], phase: Array) -> Array:
+    """`(n,)` angle [rad] of a series in degrees."""
+    return np.radians(series(coefficients, phase))
 
 
 def _leg(speed: Speed, phase: Array) -> Array:

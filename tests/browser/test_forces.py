@@ -87,3 +87,32 @@ def test_forces_are_hidden_while_the_exoskeleton_is_posed_by_hand(opened):
     assert opened.evaluate("exo.forces.arrows.every(({ group }) => !group.visible)")
     opened.evaluate("exo.apply()")
     assert opened.evaluate("exo.forces.arrows.some(({ group }) => group.visible)")
+
+
+def test_the_numbers_of_a_tab_can_be_taken_away(opened, gait, found):
+    opened.evaluate("exo.plots.choose(4)")
+    table = opened.evaluate("tableText(tableOf(exo.plots), ',')").splitlines()
+    heads = table[0].split(",")
+    assert heads[:3] == ["time_s", "left_hip_flexion [N m]", "right_hip_flexion [N m]"]
+    assert len(table) == 1 + len(gait)
+    values = np.array([[float(x) for x in row.split(",")] for row in table[1:]])
+    knee = heads.index("right_knee_flexion [N m]")
+    assert np.abs(values[:, knee] - found.torque[:, 9]).max() < 0.01  # [N m] as rounded in the page
+    drawn = opened.evaluate(
+        "new DOMParser().parseFromString(plotsSvg(exo.plots), 'image/svg+xml').documentElement.tagName"
+    )
+    assert drawn == "svg"
+
+
+def test_a_pose_by_buttons_keeps_the_limits_and_leads_back_to_the_walk(opened):
+    opened.evaluate("exo.seek(0.2); exo.apply(); exo.plots.choose(exo.plots.groups.length)")
+    walk = opened.evaluate("exo.chains[0].q")
+    for name in ("Zero", "Centre", "Random"):
+        opened.evaluate(
+            f"[...document.querySelectorAll('#poses button')].find(b => b.textContent === '{name}').click()"
+        )
+        q = opened.evaluate("exo.chains[0].joints.map(({ limits }, k) => [exo.chains[0].q[k], ...limits])")
+        assert all(low - 1e-9 <= x <= high + 1e-9 for x, low, high in q)
+        assert opened.evaluate("exo.byHand")
+    opened.evaluate("document.querySelector('#poses button').click()")
+    assert opened.evaluate("exo.chains[0].q") == pytest.approx(walk)

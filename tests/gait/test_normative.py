@@ -14,7 +14,14 @@ import pytest
 from exo_pin.anatomy import CORNERS, JOINTS, MOVEMENTS, Body
 from exo_pin.anatomy.names import Speed
 from exo_pin.errors import GaitError, UnknownNameError
-from exo_pin.gait import SPEEDS, normative_gait, normative_sd, schwartz2008, schwartz2008_sd
+from exo_pin.gait import (
+    SPEEDS,
+    normative_gait,
+    normative_sd,
+    schwartz2008,
+    schwartz2008_kinetics,
+    schwartz2008_sd,
+)
 from exo_pin.kinematics import poses
 from exo_pin.robot import load_robot
 
@@ -83,6 +90,8 @@ def test_the_script_writes_the_coefficients_again_byte_for_byte(shared, tmp_path
     assert target.read_bytes() == Path(schwartz2008.__file__).read_bytes()
     spread = target.with_name("schwartz2008_sd.py")
     assert spread.read_bytes() == Path(schwartz2008_sd.__file__).read_bytes()
+    kinetics = target.with_name("schwartz2008_kinetics.py")
+    assert kinetics.read_bytes() == Path(schwartz2008_kinetics.__file__).read_bytes()
 
 
 @pytest.mark.parametrize("speed", SPEEDS)

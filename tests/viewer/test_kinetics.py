@@ -13,6 +13,7 @@ from exo_pin.anatomy import CORNERS, JOINTS, SIDES
 from exo_pin.dynamics import torques
 from exo_pin.errors import GaitError
 from exo_pin.gait.heading import turned
+from exo_pin.gait.normative_kinetics import normative_moments
 from exo_pin.kinematics import poses
 from exo_pin.viewer.scenes.actor import flat_poses
 
@@ -90,3 +91,20 @@ def test_the_pelvis_tab_turns_back_into_the_pelvis_that_is_shown(shown):
     T[:, :3, :3], T[:, :3, 3] = R, shown.arrays["base"][:, :3]
     apart = np.abs(flat_poses(T) - shown.arrays["base"])
     assert apart.max() < 1e-6
+
+
+def test_the_band_lies_around_the_normal_walk_itself(shown, gait):
+    low, high = shown.arrays["angles_low"], shown.arrays["angles_high"]
+    assert np.abs((low + high) / 2 - gait.q).max() < np.radians(
+        0.4
+    )  # the right leg walks 0.5 % later or sooner
+    assert np.all(high - low > 0.0)
+
+
+def test_the_band_of_torques_is_the_sources_times_the_persons_mass(shown, robot):
+    mean, sd = normative_moments("free")
+    column = shown.facts.plots[4].plots[2].series[0].column  # the left ankle
+    ankle = JOINTS.index("left_ankle_dorsiflexion")
+    high = shown.arrays["torques_high"][:, column]
+    assert np.abs(high - robot.body.mass * (mean + sd)[:, ankle]).max() < 1e-3
+    assert any("children" in note for note in shown.facts.notes)

@@ -7,6 +7,7 @@ const FINE = 2; // more samples than this for a pixel are drawn as their lowest 
 class Backdrop {
   constructor(plot, colors) {
     Object.assign(this, { spec: plot.spec, source: plot.source, motion: plot.motion, window: plot.window });
+    this.plot = plot;
     Object.assign(this, { x: plot.x, y: plot.y, unit: plot.unit, colors });
   }
 
@@ -24,6 +25,7 @@ class Backdrop {
     pen.rect(x.from, y.to, x.to - x.from, y.from - y.to);
     pen.clip();
     this.strikes(pen);
+    if (this.plot.showsBand) for (const series of spec.series) this.band(pen, series);
     for (const series of spec.series) this.limits(pen, series);
     for (const series of spec.series) this.curve(pen, this.source.compared, series, DOTS);
     for (const series of spec.series) this.curve(pen, this.source.reference, series, DASH);
@@ -134,6 +136,29 @@ class Backdrop {
       pen.fillRect(x.from, top, x.to - x.from, bottom - top);
       pen.globalAlpha = 0.9;
       pen.fillRect(x.from, top === y.to ? bottom - 1 : top, x.to - x.from, 1);
+    }
+    pen.globalAlpha = 1;
+  }
+
+  /** The normal band of a series, wherever its phase is known: one area for each unbroken stretch. */
+  band(pen, { side, column }) {
+    const [low, high] = [this.source.low, this.source.high].map((name) => this.motion.arrays[name]);
+    if (!low) return;
+    const { time, periodic, duration } = this.motion;
+    const count = time.length + (periodic ? 1 : 0); // a cycle closes
+    const value = ({ data, width }, i) => data[(i % time.length) * width + column] * this.spec.factor;
+    const x = (i) => this.x.of(i < time.length ? time[i] : duration);
+    pen.fillStyle = this.colors[side] || this.colors.ink;
+    pen.globalAlpha = 0.17;
+    for (let from = 0; from < count; from++) {
+      let to = from;
+      while (to < count && !Number.isNaN(value(low, to))) to++;
+      if (to - from < 2) continue;
+      pen.beginPath();
+      for (let i = from; i < to; i++) pen.lineTo(x(i), this.y.of(value(high, i)));
+      for (let i = to - 1; i >= from; i--) pen.lineTo(x(i), this.y.of(value(low, i)));
+      pen.fill();
+      from = to;
     }
     pen.globalAlpha = 1;
   }

@@ -13,9 +13,10 @@ class Player {
     this.stage = Stage.open(part("pane"));
     part("no-webgl").hidden = this.stage !== null;
     this.plots = new Plots(part("plots"), part("tabs"), this.stage && part("sliders"), (t) => this.seek(t));
-    this.sliders = new Sliders(part("sliders"), (q) => this.poseByHand(q));
+    this.sliders = new Sliders(part("sliders"), (q) => this.poseByHand(q), () => this.apply());
     this.byHand = false; // whether the exoskeleton is posed by hand instead of by the walk
     this.controls = new Controls(this);
+    wireTaking(this);
     this.transport = null;
     this.drawn = null; // time of the last picture
     this.followed = [0, 0]; // how far the cameras have followed the walk [m]

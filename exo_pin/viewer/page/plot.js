@@ -32,7 +32,7 @@ class Plot {
   /** Values shown: the data's own range, widened to a limit that lies near. */
   range() {
     const { motion, source, spec } = this;
-    const names = [source.values, source.reference, source.compared];
+    const names = [source.values, source.reference, source.compared, source.low, source.high];
     const tables = names.map((name) => motion.arrays[name]).filter((table) => table);
     const ranges = spec.series.map((series) => columnRange(tables, series.column));
     const low = Math.min(...ranges.map((r) => r[0])) * spec.factor;
@@ -54,7 +54,7 @@ class Plot {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
-    this.unit = Math.min(Math.max(Math.min(height / USUAL, width / 320), 1), 1.4);
+    this.unit = Math.min(Math.max(Math.min(height / USUAL, width / 320), 1), 1.7);
     this.paint();
   }
 

@@ -18,6 +18,11 @@ class Plots {
     this.stretch = document.getElementById("stretch");
     document.getElementById("narrower").onclick = () => this.zoom(1 / STEP);
     document.getElementById("wider").onclick = () => this.zoom(STEP);
+    this.showsBand = true;
+    document.getElementById("band").onchange = (event) => {
+      this.showsBand = event.target.checked;
+      this.choose(this.groups.indexOf(this.group));
+    };
     document.getElementById("whole").onclick = () => this.toggleWhole();
   }
 
@@ -46,13 +51,18 @@ class Plots {
     const group = this.groups[k];
     this.holder.hidden = !group;
     if (this.other) this.other.hidden = Boolean(group);
+    document.body.classList.toggle("posing", !group); // the rings at the feet are then seen all the time
+    document.getElementById("take").hidden = !group;
     this.showWindow();
     if (!group) return;
     document.getElementById("dashed").hidden = !group.reference;
     document.getElementById("dashed-title").textContent = group.dashes || this.reference;
     document.getElementById("dotted").hidden = !group.compared;
     this.holder.replaceChildren();
+    document.getElementById("banded").hidden = !group.low;
+    this.group = group;
     this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.window, this.holder));
+    for (const plot of this.plots) plot.showsBand = this.showsBand;
     for (const plot of this.plots) this.listen(plot);
     this.resize();
   }

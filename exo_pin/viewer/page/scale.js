@@ -70,7 +70,7 @@ class Scale {
 
   /** Round values, as many as fit in about `parts` steps, and at least so many. */
   ticks(parts, least = 0) {
-    for (let finer = parts; ; finer *= 1.5) {
+    for (let finer = parts; ; finer *= 1.1) {
       const found = this.multiples(roundStep(this.high - this.low, finer));
       if (found.length >= least) return found;
     }

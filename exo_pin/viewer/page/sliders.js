@@ -3,10 +3,9 @@
 const TO_DEGREES = 180 / Math.PI;
 
 class Sliders {
-  /** onPose is called with the joint values, in the chain's order, after every change. */
-  constructor(holder, onPose) {
-    this.holder = holder;
-    this.onPose = onPose;
+  /** onPose is called with the joint values, in the chain's order, after every change; onBack to see the walk. */
+  constructor(holder, onPose, onBack) {
+    Object.assign(this, { holder, onPose, onBack });
     this.rows = [];
     this.q = [];
     new ResizeObserver(() => this.show(this.q)).observe(holder); // they come into view
@@ -18,7 +17,29 @@ class Sliders {
     const limited = chain.joints.map((joint, k) => ({ joint, k })).filter(({ joint }) => joint.limits);
     this.rows = limited.map(({ joint, k }) => this.row(joint, k));
     const note = Object.assign(document.createElement("p"), { textContent: hint });
-    this.holder.replaceChildren(...this.rows.map((row) => row.label), note);
+    this.holder.replaceChildren(this.buttons(), ...this.rows.map((row) => row.label), note);
+  }
+
+  /** Back to the walk, and poses of all joints at once. */
+  buttons() {
+    const holder = Object.assign(document.createElement("div"), { id: "poses" });
+    const clamped = (x, [low, high]) => Math.min(Math.max(x, low), high);
+    const poses = {
+      Zero: (limits) => clamped(0, limits),
+      Centre: ([low, high]) => (low + high) / 2,
+      Random: ([low, high]) => low + Math.random() * (high - low),
+    };
+    const button = (textContent, onclick) => {
+      holder.append(Object.assign(document.createElement("button"), { type: "button", textContent, onclick }));
+    };
+    button("Back to the walk", () => this.onBack());
+    for (const [name, value] of Object.entries(poses)) {
+      button(name, () => {
+        this.show(this.joints.map(({ limits }, k) => (limits ? value(limits) : this.q[k])));
+        this.onPose(this.q);
+      });
+    }
+    return holder;
   }
 
   row(joint, k) {

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from itertools import pairwise
 from math import degrees, radians
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array
-from exo_pin.gait import Gait, Torques, side_with_more_strides, strides, walk_estimate
+from exo_pin.gait import Gait, Torques, side_with_more_strides, walk_estimate
 from exo_pin.gait.heading import heading, turned
 from exo_pin.ground import PlacedWalk
 from exo_pin.retarget import Retargeted
@@ -23,7 +21,8 @@ from exo_pin.viewer.scenes.actor import GHOST, Actor
 from exo_pin.viewer.scenes.exoskeleton import stage_exoskeleton
 from exo_pin.viewer.scenes.humanoid import stage_robot
 from exo_pin.viewer.scenes.kinetics import Kinetics
-from exo_pin.viewer.scenes.scene import ROOT, Beside, Facts, Group, Interval, Marks, PhaseCycles, Scene
+from exo_pin.viewer.scenes.leg_phases import cycles_of
+from exo_pin.viewer.scenes.scene import ROOT, Beside, Facts, Group, Marks, PhaseCycles, Scene
 from exo_pin.viewer.scenes.staging import SceneOptions, Staging
 from exo_pin.viewer.scenes.world import ASIDE, SECOND, boxes, world
 
@@ -106,7 +105,7 @@ def phase_cycles(gait: Gait) -> PhaseCycles:
     has those of an estimated stride (`exo_pin.gait.half_strides`).
     """
     side = side_with_more_strides(gait)
-    found = _cycles_of(gait, side)
+    found = cycles_of(gait, side)
     if gait.periodic and not found:
         return PhaseCycles("", ((0.0, gait.duration),))
     estimate = None if found else walk_estimate(gait)
@@ -115,16 +114,6 @@ def phase_cycles(gait: Gait) -> PhaseCycles:
     start, end = float(gait.time[0]), float(gait.time[-1])
     spans = tuple((a - start, b - start) for a, b in estimate.cycles(start, end))
     return PhaseCycles(estimate.side, spans, str(estimate))
-
-
-def _cycles_of(gait: Gait, side: Side) -> tuple[Interval, ...]:
-    """From, to [s] after the first sample."""
-    start = float(gait.time[0])
-    if not gait.periodic:
-        spans = strides(gait, side)
-        return tuple((span.start - start, span.end - start) for span in spans if not span.why)
-    strikes = [e.time - start for e in gait.events if (e.side, e.kind) == (side, "heel_strike")]
-    return tuple(pairwise([t + k * gait.duration for k in (-1, 0, 1) for t in strikes]))
 
 
 def _facing(gait: Gait) -> tuple[Gait, list[str]]:
@@ -151,14 +140,12 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
     drawings, marks = world(gait, walk, staging.mounts, ghost=options.compare is not None)
     cycles = phase_cycles(gait)
     phase = [f"The phase is an estimate: {cycles.estimate}."] if cycles.estimate else []
+    said = (*gait.remarks, *options.notes, *_source(gait), *phase)
+    notes = (*said, *_support_notes(walk), *faced, *staging.notes)
     facts = Facts(
         title=options.title,
-        subtitle=_subtitle(gait),
-        notes=tuple(
-            dict.fromkeys(
-                (*gait.remarks, *options.notes, *phase, *_support_notes(walk), *faced, *staging.notes)
-            )
-        ),
+        subtitle=_subtitle(staging),
+        notes=tuple(dict.fromkeys(notes)),
         duration=gait.duration,
         start=float(gait.time[0]),
         periodic=gait.periodic,
@@ -202,9 +189,18 @@ def _beside(walk: PlacedWalk, options: SceneOptions) -> Beside | None:
     return Beside(("ghost", "ghost_wearer"), ASIDE, "" if walk.support.overground else SECOND, options.beside)
 
 
-def _subtitle(gait: Gait) -> str:
+def _subtitle(staging: Staging) -> str:
+    """Who walks in what, for how long."""
+    robot, gait = staging.robot, staging.gait
+    device = "" if robot.device is None else (robot.device.title or robot.device.name).partition(" (")[0]
+    body = robot.body
+    person = f"{body.stature:.2f} m, {body.mass:.0f} kg" if body is not None and body.wearer else ""
     kind = "cycle" if gait.periodic else "recording"
-    return ", ".join(filter(None, (gait.source, f"{gait.duration:.2f} s {kind}")))
+    return " · ".join(filter(None, (person, device, f"{gait.duration:.2f} s {kind}")))
+
+
+def _source(gait: Gait) -> list[str]:
+    return [gait.source] if gait.source else []
 
 
 def _support_notes(walk: PlacedWalk) -> list[str]:

@@ -17,6 +17,7 @@ from exo_pin.robot import Robot
 from exo_pin.viewer.scenes import joint_plots, person_figure, walk_plots
 from exo_pin.viewer.scenes.actor import Actor, Mount, chain_samples
 from exo_pin.viewer.scenes.balance_support import balance_support
+from exo_pin.viewer.scenes.children_band import children_band
 from exo_pin.viewer.scenes.force_marks import shown_forces
 from exo_pin.viewer.scenes.kinetics import Kinetics
 from exo_pin.viewer.scenes.link_nodes import Linkage, linkage
@@ -65,6 +66,9 @@ def stage_exoskeleton(
         tabs = joint_plots.with_second_walk(tabs, _tabs(robot, second.walk, second.gait))
         keys.append(Key(f"ghost: {options.compare_title}", _GHOST_COLOR))
         notes.append(second.note)
+    band = children_band(robot, gait)
+    if band is not None:
+        tabs, notes = tuple(map(band.behind, tabs)), [*notes, band.note]
     top = _BACKPACK
     worn = wearer and robot.body is not None and robot.body.wearer
     if worn and not person_figure.installed():

@@ -57,6 +57,7 @@ class Tab:
         reference: `(m, J)` dashed curves on a time of their own, or None.
         reference_time: `(m,)` from 0 [s].
         compared: `(n, J)` dotted curves of a second walk on the scene's time, or None.
+        band: Lower and upper end `(n, J)` of the normal band on the scene's time, NaN where unknown, or None.
         dashes: What the dashed curves are, where they are not the walk's reference.
         units: By movement, where it has a unit of its own.
         signs: By movement, what a positive value means; "": the title says it. Left out: the movement's name.
@@ -72,6 +73,7 @@ class Tab:
     reference: Array | None = None
     reference_time: Array | None = None
     compared: Array | None = None
+    band: tuple[Array, Array] | None = None
     dashes: str = ""
     units: Mapping[str, Unit] = field(default_factory=dict)
     signs: Mapping[str, str] = field(default_factory=dict)
@@ -87,6 +89,11 @@ class Tab:
         return "" if self.compared is None else f"{self.name}_compared"
 
     @property
+    def band_names(self) -> tuple[str, str]:
+        """Names of the band's arrays; empty: there is none."""
+        return ("", "") if self.band is None else (f"{self.name}_low", f"{self.name}_high")
+
+    @property
     def arrays(self) -> dict[str, Array]:
         """Its samples by name."""
         rows = {self.name: self.values}
@@ -94,6 +101,8 @@ class Tab:
             rows |= {self.dashed: self.reference, f"{self.dashed}_time": self.reference_time}
         if self.compared is not None:
             rows[self.dotted] = self.compared
+        if self.band is not None:
+            rows |= dict(zip(self.band_names, self.band, strict=True))
         return rows
 
 
@@ -167,7 +176,8 @@ def with_second_walk(tabs: Iterable[Tab], second: Iterable[Tab]) -> tuple[Tab, .
 def groups(tabs: Iterable[Tab]) -> tuple[PlotGroup, ...]:
     """The tabs as the page reads them: one plot for left and right of a joint."""
     return tuple(
-        PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab), tab.dashes) for tab in tabs
+        PlotGroup(tab.title, tab.name, tab.dashed, tab.dotted, _plots(tab), tab.dashes, *tab.band_names)
+        for tab in tabs
     )
 
 

@@ -112,7 +112,8 @@ class Plot:
 class PlotGroup:
     """One tab of plots: the arrays that it shows (solid, dashed, dotted) and its plots.
 
-    `dashes` is what the dashed curves are, where they are not the walk's reference.
+    `dashes` is what the dashed curves are, where they are not the walk's reference; `low` and `high` are the
+    arrays of the normal band, empty where there is none.
     """
 
     title: str
@@ -121,6 +122,8 @@ class PlotGroup:
     compared: str
     plots: tuple[Plot, ...]
     dashes: str = ""
+    low: str = ""
+    high: str = ""
 
 
 @dataclass(frozen=True)
@@ -267,7 +270,7 @@ class Facts:
 
     Attributes:
         title: Heading.
-        subtitle: Where the walk comes from.
+        subtitle: Who walks in what, for how long.
         notes: What people must know about the picture, in sentences.
         duration: Length of the walk [s].
         start: The gait's own time at the page's 0 [s].
