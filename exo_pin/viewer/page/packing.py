@@ -82,9 +82,10 @@ def _packed(rows: NDArray[np.floating], *, exact: bool) -> tuple[dict[str, Any],
 def _rounded(rows: NDArray[np.float64], width: dict[str, int]) -> tuple[dict[str, Any], bytes]:
     """As `_packed`, in 65535 steps over the range of each column."""
     known = np.isfinite(rows)
-    low = np.where(known, rows, np.inf).min(axis=0, initial=np.inf)
-    high = np.where(known, rows, -np.inf).max(axis=0, initial=-np.inf)
-    middle = np.where(low <= high, (low + high) / 2, 0.0)
+    some = known.any(axis=0)  # a column of NaN has no range
+    low = np.where(some, np.where(known, rows, np.inf).min(axis=0, initial=np.inf), 0.0)
+    high = np.where(some, np.where(known, rows, -np.inf).max(axis=0, initial=-np.inf), 0.0)
+    middle = (low + high) / 2
     step = np.where(low < high, (high - low) / (2 * _LEVELS), 1.0)
     steps = np.where(known, np.round((np.where(known, rows, middle) - middle) / step), -_LEVELS - 1)
     spec = {"type": "i2", **width, "middle": middle.tolist(), "step": step.tolist()}
