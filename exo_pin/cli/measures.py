@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -32,6 +33,34 @@ def kilograms(text: str) -> float:
         ArgumentTypeError: It is no mass.
     """
     return _measure(text, "kg")
+
+
+def seconds(text: str) -> float:
+    """A time: `20`, `20s` and `20 s` are the same [s].
+
+    Raises:
+        ArgumentTypeError: It is no positive time.
+    """
+    found = _NUMBER.fullmatch(text)
+    if not found or found[2].lower() not in ("", "s") or not 0 < (value := number(found[1])) < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time in seconds; write it like 20 or 20s")
+    return value
+
+
+def share(text: str) -> float:
+    """A part of a whole: `0.3` and `30%` are the same.
+
+    Raises:
+        ArgumentTypeError: It is not within 0 and 1.
+    """
+    plain = text.strip()
+    try:
+        value = number(plain.removesuffix("%")) / (100 if plain.endswith("%") else 1)
+    except ValueError:
+        value = math.nan
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no part of a whole; write it like 0.3 or 30%")
+    return value
 
 
 def number(text: str) -> float:

@@ -8,6 +8,7 @@ import stat
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 from exo_pin.errors import FormatError
 
@@ -34,12 +35,26 @@ def watched(args: argparse.Namespace, more: Sequence[str] = ()) -> Iterator[None
             if state and os.path.samestat(state, there):
                 why = f"is read by this command ({given}), so it is not written to; name another file"
                 raise FormatError(name, why)
+    _check(args, outputs)
     yield
     for name, there in before.items():
         now = _plain_file(name)
         if now and (now.st_ino, now.st_mtime_ns) != (there.st_ino, there.st_mtime_ns):
             print(f"note: {name}: an earlier file of this name was replaced", file=sys.stderr)
 
+
+def _check(args: argparse.Namespace, outputs: Sequence[str]) -> None:
+    """Refuse a page that is no .html, and a folder that is not there, before the work."""
+    page = getattr(args, "html", None)
+    if page and Path(page).suffix.lower() not in _PAGES:
+        raise FormatError(page, "a page ends in .html; its browser prints it as PDF")
+    for name in outputs:
+        folder = Path(name).parent
+        if Path(name).suffix and not folder.is_dir():  # folders that a command fills are made by it
+            raise FormatError(name, f"cannot be written: the folder {folder} does not exist")
+
+
+_PAGES = (".html", ".htm")
 
 _NOT_READ = {*_ARGUMENTS, "words", "command"}
 

@@ -43,15 +43,27 @@ class Parser(argparse.ArgumentParser):
         """Parse, and answer an unknown option with the nearest one that the command has."""
         found, rest = self.parse_known_args(args, namespace)
         if rest:
-            known = self._options_of(getattr(found, "command", None))
-            self.error("; ".join(_unknown(word, known) for word in rest))
+            command = getattr(found, "command", None)
+            words = "; ".join(_unknown(word, self._options_of(command)) for word in rest)
+            self.exit(2, f"{self.prog}: {words}; {self._usage_of(command)}\n")
         return found
 
-    def _options_of(self, command: str | None) -> tuple[str, ...]:
+    def _usage_of(self, command: str | None) -> str:
+        """One line: the command with its files, and where its options are explained."""
+        parser = self._command(command) or self
+        words = [str(x.metavar or x.dest) for x in parser._actions if not x.option_strings]
+        return f"usage: {' '.join([parser.prog, *words])} [options] (see {parser.prog} --help)"
+
+    def _command(self, name: str | None) -> argparse.ArgumentParser | None:
+        """The parser of a command."""
         for action in self._actions:
-            if isinstance(action, argparse._SubParsersAction) and command in action.choices:
-                return tuple(action.choices[command]._option_string_actions)
-        return tuple(self._option_string_actions)
+            if isinstance(action, argparse._SubParsersAction) and name in action.choices:
+                found: argparse.ArgumentParser = action.choices[name]
+                return found
+        return None
+
+    def _options_of(self, command: str | None) -> tuple[str, ...]:
+        return tuple((self._command(command) or self)._option_string_actions)
 
     def error(self, message: str) -> NoReturn:
         """One line on stderr, exit code 2."""

@@ -15,6 +15,9 @@ Item = TypeVar("Item")
 _SAMPLES_A_STEP = 2000
 """Samples between two steps of a progress bar."""
 
+_NARROW = 60
+"""Characters of a window below which a table that does not fit becomes a list."""
+
 _ANY_WIDTH = 10_000  # characters: wider than any table
 
 _NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers begin
@@ -23,7 +26,8 @@ _NUMERIC = set("0123456789-+") | {""}  # how the cells of a column of numbers be
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table; columns of numbers are aligned to the right and only their headings are broken.
 
-    Where a narrow window cannot hold the numbers, lines exceed its width: a number cut short would be wrong.
+    Where a window cannot hold the numbers, lines exceed its width: a number cut short would be wrong. In a
+    narrow window the rows become a list.
 
     Args:
         title: Above the table.
@@ -47,10 +51,34 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
     print(title)
     console = Console(highlight=False)
     least = console.measure(drawn, options=console.options.update(max_width=_ANY_WIDTH)).minimum
+    if least > console.width < _NARROW:
+        _records(columns, rows, console.width)
+        return
     wide = Console(highlight=False, width=max(console.width, least))
     with wide.capture() as text:  # rich itself would end the program with exit code 1 at a closed pipe
-        wide.print(drawn)
+        wide.print(drawn, crop=False)
     print(text.get(), end="", file=unfiltered(sys.stdout))  # with our own colours
+
+
+def _records(columns: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> None:
+    """The rows one under the other, each cell with its heading, for a window too narrow for a table."""
+    for first, *cells in rows:
+        print(plain(first))
+        for name, cell in zip(columns[1:], cells, strict=True):
+            words = plain(cell).split(" ") if cell[:1] not in _NUMERIC else [plain(cell)]
+            for line in _filled([f"{name}:", *words] if name else words, width) if cell else ():
+                print(line)
+
+
+def _filled(words: Sequence[str], width: int) -> Iterator[str]:
+    """Lines of whole words, the later ones further in; a longer word has a line of its own."""
+    line = " "
+    for word in words:
+        if len(line) + 1 + len(word) > width and line.strip():
+            yield line
+            line = "   "
+        line += f" {word}"
+    yield line
 
 
 def _widest(heading: str, rows: Sequence[Sequence[str]], k: int, *, words: bool = False) -> int:

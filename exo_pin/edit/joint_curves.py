@@ -90,27 +90,47 @@ def symmetrised(gait: Gait) -> Gait:
     return _recorded(dataclasses.replace(even, q=q, base=base, events=_even_events(even)), "symmetrised")
 
 
-def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
+def lasting(gait: Gait, seconds: float) -> Gait:
+    """A gait that repeats, as a recording of that length at its own cadence.
+
+    Args:
+        gait: It repeats.
+        seconds: How long it is walked [s].
+
+    Raises:
+        GaitError: It is a recording, or the length is not positive or more than an hour.
+    """
+    seconds = number("length [s]", seconds, above=0.0, most=_LONGEST_RAMP, error=GaitError)
+    if not gait.periodic:
+        raise GaitError("only a gait that repeats can be walked for any time; a recording has its own length")
+    walk = _unrolled(gait, seconds)
+    time = np.linspace(0.0, seconds, max(2, round(seconds / gait.time[1]) + 1))
+    return _recorded(_along(walk, time, time), f"walked for {seconds:g} s")
+
+
+def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0, duration: float | None = None) -> Gait:
     """The walk with a slow start from rest and a slow stop; accelerations stay finite.
 
     The path of the angles stays the same; only the rate at which it is followed changes. A periodic gait is
-    repeated for as many cycles as the ramps need, and one more.
+    repeated for as many cycles as the ramps need, and one more; or for `duration` at its own cadence.
 
     Args:
         gait: The walk.
         start: Duration of the start from rest [s].
         stop: Duration of the stop [s].
+        duration: Of the whole, ramps included [s]; a recording is followed faster or slower for it. None:
+            what the walk needs.
 
     Raises:
-        GaitError: A ramp is negative or longer than an hour, or the recording is shorter than half of both
-            ramps.
+        GaitError: A ramp is negative or longer than an hour, the recording is shorter than half of both
+            ramps, or the duration is shorter than both ramps or longer than an hour.
     """
     for name, seconds in (("start", start), ("stop", stop)):
         number(f"{name} of the ramps [s]", seconds, least=0.0, most=_LONGEST_RAMP, error=GaitError)
     need = (start + stop) / 2  # a ramp follows the walk at half the rate on average
-    walk = gait
-    if gait.periodic:
-        walk = gait.repeated(2 + int(np.ceil(need / gait.duration)))
+    walk = gait if duration is None else _of_length(gait, duration, start + stop, need)
+    if walk.periodic:
+        walk = walk.repeated(2 + int(np.ceil(need / walk.duration)))
     span = float(walk.time[-1] - walk.time[0])
     if span < need:
         raise GaitError(
@@ -121,6 +141,19 @@ def ramped(gait: Gait, *, start: float = 2.0, stop: float = 2.0) -> Gait:
     time = np.linspace(0, total, n)
     phase = walk.time[0] + np.clip(_ramped_time(time, start, total - stop, total), 0, span)
     return _recorded(_along(walk, time, phase), f"ramped {start:g} s up, {stop:g} s down")
+
+
+def _of_length(gait: Gait, duration: float, ramps: float, need: float) -> Gait:
+    """The walk that lasts `duration` with its ramps: cut from one that repeats, else followed otherwise."""
+    number("duration [s]", duration, least=ramps, most=_LONGEST_RAMP, error=GaitError)
+    span = number("duration less half of both ramps [s]", duration - need, above=0.0, error=GaitError)
+    return lasting(gait, span) if gait.periodic else retimed(gait, duration=span)
+
+
+def _unrolled(gait: Gait, seconds: float) -> Gait:
+    """A periodic gait as a recording of at least that length."""
+    many = gait.repeated(2 + int(np.ceil(seconds / gait.duration)))
+    return dataclasses.replace(many, periodic=False)
 
 
 def filtered(gait: Gait, *, cutoff: float = signals.CUTOFF, order: int = signals.ORDER) -> Gait:

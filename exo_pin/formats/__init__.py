@@ -12,7 +12,7 @@ from exo_pin.formats.loading import (
     save_torques,
 )
 from exo_pin.formats.read_options import ReadOptions
-from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, Format, open_trial
+from exo_pin.formats.registry import FORMATS, MARKER_FORMATS, Content, Format, open_trial, written_format
 from exo_pin.formats.sign_presets import PRESETS
 from exo_pin.formats.tables import Poses, load_poses, save_poses
 from exo_pin.formats.trial_file import TrialFile
@@ -41,4 +41,5 @@ __all__ = [
     "save_gait",
     "save_poses",
     "save_torques",
+    "written_format",
 ]

@@ -119,3 +119,48 @@ def test_names_in_a_list_are_parted_by_commas_or_spaces(tmp_path, monkeypatch):
 def test_devices_of_a_comparison_are_parted_by_commas(capsys):
     said = out(capsys, "compare", "--devices", "Lokomat,h2", "exo12", "--json")
     assert said == out(capsys, "compare", "--devices", "lokomat", "h2", "exo12", "--json")
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("0.3", 0.3), ("30%", 0.3), ("30 %", 0.3), ("0,3", 0.3), ("1", 1.0)]
+)
+def test_a_part_of_a_whole_is_a_number_or_per_cent(text, value):
+    assert measures.share(text) == pytest.approx(value)
+
+
+@pytest.mark.parametrize("text", ["130%", "-0.1", "nan", "half", "3"])
+def test_what_is_no_part_of_a_whole_is_refused(text):
+    with pytest.raises(argparse.ArgumentTypeError):
+        measures.share(text)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["replay", "--html", "out.pdf"],
+        ["replay", "--html", "nowhere/out.html"],
+        ["edit", "free", "out.pdf", "--cycles", "3"],
+        ["edit", "free", "nowhere/out.csv", "--cycles", "3"],
+        ["edit", "free", "out.csv", "--cycles", "3", "--for", "20s"],
+        ["report", "-o", "nowhere/out.html"],
+    ],
+)
+def test_files_that_cannot_be_written_are_refused_before_the_work(words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("exo_pin.cli.options.gait_from", lambda *args: pytest.fail("it worked first"))
+    assert main(words) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_an_unknown_option_shows_the_usage_of_the_command(capsys):
+    with pytest.raises(SystemExit):
+        main(["edit", "free", "out.csv", "--nothing"])
+    assert "usage: exo-pin edit GAIT OUT [options]" in capsys.readouterr().err
+
+
+def test_a_narrow_window_shows_a_table_as_a_list(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    assert main(["devices"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 40
+    assert "  motors: 4" in lines

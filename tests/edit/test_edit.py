@@ -329,3 +329,26 @@ def test_the_recheck_tells_how_near_the_limits_a_walk_comes(robot, walk):
         np.abs(walk.dq[:, JOINTS.index(found.fastest.joint)]).max()
     )
     assert found.hardest.acceleration.peak == pytest.approx(np.abs(walk.ddq).max())
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_a_ramp_takes_the_length_that_is_asked(walk, periodic):
+    """A gait that repeats keeps its cadence in between; a recording is followed faster or slower."""
+    gait = walk if periodic else edit.lasting(walk, 6.0)
+    soft = edit.ramped(gait, start=3.0, stop=3.0, duration=20.0)
+    assert soft.duration == pytest.approx(20.0, abs=1e-9)
+    assert not soft.periodic
+    strikes = [e.time for e in soft.events if (e.kind, e.side) == ("heel_strike", "left") and 4 < e.time < 16]
+    rate = 1.0 if periodic else 6.0 / 17.0
+    np.testing.assert_allclose(np.diff(strikes), walk.duration / rate, rtol=1e-3)
+    with pytest.raises(GaitError, match="6 to 3600"):
+        edit.ramped(gait, start=3.0, stop=3.0, duration=5.0)
+
+
+def test_a_gait_is_walked_for_any_time_at_its_own_cadence(walk):
+    long = edit.lasting(walk, 5.0)
+    assert long.time[[0, -1]].tolist() == [0.0, 5.0]
+    twice = edit.lasting(walk, 2 * walk.duration)
+    np.testing.assert_allclose(twice.q[0], twice.q[-1], atol=1e-9)
+    with pytest.raises(GaitError, match="recording"):
+        edit.lasting(long, 3.0)

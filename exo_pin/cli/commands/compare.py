@@ -73,7 +73,8 @@ def run(args: argparse.Namespace) -> int:
     body = options.body_from(args)
     gait, conditions = options.gait_from(args, body), Conditions(args.pelvis, args.passive)
     torques = torque_options.given(args, body, gait)
-    comparison = compare(gait, chosen, body, conditions=conditions, torques=torques)
+    with show.busy(f"comparing {len(chosen)} devices"):
+        comparison = compare(gait, chosen, body, conditions=conditions, torques=torques)
     if args.json:
         show.as_json(comparison.facts())
     else:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from exo_pin.cli import body_options, device_options, options, show, walk_output
+from exo_pin.cli import body_options, device_options, measures, options, show, walk_output
 from exo_pin.errors import DescriptionError
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ _EXAMPLES = """examples:
   exo-pin edit walk.mot slow.mot --slower 1.5 --stride 0.8
   exo-pin edit free soft.csv --amplitude knee_flexion=0.8 --clearance 1.2
   exo-pin edit free start.yaml --ramp 3 3                   a slow start and stop, for a controller
+  exo-pin edit free start.yaml --duration 20 --ramp 3 3     20 s in all, ramps included
+  exo-pin edit free long.csv --for 20s                      at its cadence for 20 s; or --cycles 12
   exo-pin edit walk.mot smooth.csv --cutoff 6 --mirror
   exo-pin edit walk.mot even.csv --cutoff 6 --cycle --symmetric
   exo-pin edit free between.csv --blend slow=0.3
@@ -28,9 +31,9 @@ _EXAMPLES = """examples:
   exo-pin edit walk.mot fit.csv --fit lokomat               what the device can do of it: see exo-pin feasible
 
 Adjustments are made in the order of these options: cutoff, cycle, symmetric, mirror, blend, amplitude,
-stride and clearance, transition, duration or slower, ramp, fit. Limits, speeds and accelerations are checked
-after each. exit code 0: done; 1: written, but a joint leaves its limits; or the legs cannot follow or the
-device of --fit does not fit, and nothing is written."""
+stride and clearance, transition, duration or slower, cycles or for, ramp, fit. Limits, speeds and
+accelerations are checked after each. exit code 0: done; 1: written, but a joint leaves its limits; or the
+legs cannot follow or the device of --fit does not fit, and nothing is written."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -68,7 +71,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="of each gait around a transition (default: 2)",
     )
     group.add_argument("--slower", type=float, metavar="F", help="this many times slower")
-    group.add_argument("--duration", type=float, metavar="S", help="length of the whole walk [s]")
+    group.add_argument(
+        "--duration",
+        type=measures.seconds,
+        metavar="S",
+        help="length of the whole walk [s]; with --ramp a gait that repeats keeps its cadence",
+    )
+    group.add_argument("--cycles", type=int, metavar="N", help="a gait that repeats, this often")
+    group.add_argument(
+        "--for", dest="seconds", type=measures.seconds, metavar="S", help="a gait that repeats, for 20s"
+    )
     group.add_argument("--ramp", type=float, nargs=2, metavar=("UP", "DOWN"), help="slow start and stop [s]")
     group.add_argument(
         "--fit",
@@ -81,12 +93,28 @@ def configure(parser: argparse.ArgumentParser) -> None:
     options.add_body(parser)
 
 
+def _check(args: argparse.Namespace) -> None:
+    """Refuse options that contradict each other and files that are not written, before any work."""
+    from exo_pin.formats import written_format
+
+    written_format(Path(args.output))
+    lengths = {"--duration": args.duration, "--cycles": args.cycles, "--for": args.seconds}
+    given = [name for name, value in lengths.items() if value is not None]
+    if len(given) > 1 and not (given == ["--duration", "--cycles"] and not args.ramp):
+        raise DescriptionError(f"{' and '.join(given)} both state the length of the walk; one is accepted")
+    if args.slower is not None and args.duration is not None:
+        raise DescriptionError("--slower and --duration both state the time; one is accepted")
+    if args.cycles is not None and args.cycles < 1:
+        raise DescriptionError(f"--cycles is {args.cycles}; 1 or more is accepted")
+
+
 def run(args: argparse.Namespace) -> int:
     """Adjust, check after each adjustment, write."""
     from exo_pin import edit
     from exo_pin.formats import save_gait
     from exo_pin.robot import load_robot
 
+    _check(args)
     body = options.body_from(args)
     robot, gait = load_robot(body), options.gait_from(args, body)
     checks = {"as it is": edit.recheck(robot, gait)}
@@ -210,7 +238,7 @@ def _feet(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gai
 def _time(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
-    if args.slower is None and args.duration is None:
+    if args.slower is None and (args.duration is None or args.ramp):
         return gait
     return edit.retimed(gait, factor=args.slower, duration=args.duration)
 
@@ -229,10 +257,25 @@ def _fitted(args: argparse.Namespace, body: Body, gait: Gait) -> tuple[Gait, Rob
     return walk, found.as_recorded.robot  # the joints that it locks have no limits to keep
 
 
+def _length(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
+    from exo_pin import edit
+
+    if args.cycles is None and args.seconds is None:
+        return gait
+    if not gait.periodic:
+        raise DescriptionError("--cycles and --for are for a gait that repeats; --cycle makes one first")
+    if args.cycles is not None:
+        return edit.lasting(gait, args.cycles * gait.duration) if args.ramp else gait.repeated(args.cycles)
+    return gait if args.ramp else edit.lasting(gait, args.seconds)
+
+
 def _ramp(args: argparse.Namespace, robot: Robot, body: Body, gait: Gait) -> Gait:
     from exo_pin import edit
 
-    return edit.ramped(gait, start=args.ramp[0], stop=args.ramp[1]) if args.ramp else gait
+    if not args.ramp:
+        return gait
+    whole = args.duration if args.seconds is None else args.seconds
+    return edit.ramped(gait, start=args.ramp[0], stop=args.ramp[1], duration=whole)
 
 
 _STEPS: dict[str, Step] = {
@@ -245,6 +288,7 @@ _STEPS: dict[str, Step] = {
     "at the feet": _feet,
     "transition": _transition,
     "retimed": _time,
+    "repeated": _length,
     "ramped": _ramp,
 }
 """The adjustments in the order in which they are made."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from exo_pin.cli import shot_options, show, shown_walk
+from exo_pin.cli import measures, shot_options, show, shown_walk
 from exo_pin.errors import DescriptionError
 from exo_pin.files import write_bytes
 
@@ -22,7 +22,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.epilog = _EXAMPLES
     shot_options.add(parser, size="1920x1080")
-    parser.add_argument("--phase", type=float, default=0.0, metavar="P", help="share of the walk, 0 .. 1")
+    parser.add_argument(
+        "--phase", type=measures.share, default=0.0, metavar="P", help="share of the walk, 0.3 or 30%%"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
