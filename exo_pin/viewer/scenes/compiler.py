@@ -18,6 +18,7 @@ from exo_pin.retarget import Retargeted
 from exo_pin.robot import Robot
 from exo_pin.viewer.scenes import joint_plots, props
 from exo_pin.viewer.scenes.actor import GHOST, Actor
+from exo_pin.viewer.scenes.decimation import decimated
 from exo_pin.viewer.scenes.exoskeleton import stage_exoskeleton
 from exo_pin.viewer.scenes.humanoid import stage_robot
 from exo_pin.viewer.scenes.kinetics import Kinetics
@@ -58,10 +59,16 @@ def exoskeleton_scene(
         GaitError: The torques belong to another time, the forces to another clock.
     """
     options = options or SceneOptions(title="12-DoF exoskeleton gait")
-    recorded = gait
+    shorter = decimated(gait)
+    if kinetics is not None:
+        kinetics = kinetics.on(gait.time).at(shorter.rows)
+    recorded = shorter.gait
     gait, faced = _facing(recorded)
     if kinetics is not None:
-        kinetics = kinetics.on(gait.time).turned(_rotation(recorded, gait)[:3, :3])
+        kinetics = kinetics.turned(_rotation(recorded, gait)[:3, :3])
+    if reference is not None:
+        reference = decimated(reference).gait
+    faced += [shorter.note] if shorter.note else []
     staging = stage_exoskeleton(
         robot,
         gait,

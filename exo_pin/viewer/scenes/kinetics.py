@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from exo_pin.anatomy import FEET, SIDES
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.kinematics import poses
 from exo_pin.robot.gait_columns import in_joint_order
@@ -111,6 +111,15 @@ class Kinetics:
             source=f"motors under the controller {run.controller}",
             effort=Effort(run.person[rows], load, run.q[rows] - run.reference.q[: len(run.q)][rows]),
         )
+
+    def at(self, rows: Index | slice) -> Kinetics:
+        """Some of the samples."""
+        effort = self.effort
+        if effort is not None:
+            effort = Effort(effort.person[rows], effort.load[rows], effort.error[rows])
+        names = ("time", "force", "spot", "support", "torque", "power")
+        parts = {name: getattr(self, name)[rows] for name in names}
+        return replace(self, **parts, effort=effort)
 
     def turned(self, R: Array) -> Kinetics:
         """The same in a world that is turned by a rotation (3, 3)."""
