@@ -126,6 +126,12 @@ def _largest(walk: Footsteps, least: float, room: Callable[[Footsteps], float]) 
 
 
 def step_words(walk: Footsteps, plan: Course, sample: int) -> str:
-    """The step that is taken at a sample, or taken next, in words."""
+    """The step that is taken at a sample, or taken next, in words.
+
+    Args:
+        walk: The footsteps.
+        plan: Their course.
+        sample: Of the course.
+    """
     k = step_at(plan.phases, float(plan.time[sample]))
     return f"step {k + 1} ({walk.steps[k].side} foot)"

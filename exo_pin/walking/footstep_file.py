@@ -13,7 +13,7 @@ from exo_pin.files import read_lines, write_text
 from exo_pin.safe import plain_numbers
 from exo_pin.walking.footsteps import Footstep, Footsteps
 
-COLUMNS = ("side", "x_m", "y_m", "heading_deg")
+FOOTSTEP_COLUMNS = ("side", "x_m", "y_m", "heading_deg")
 """Of the table; the first two rows are where the left and the right foot stand before the first step."""
 
 
@@ -39,7 +39,9 @@ def load_footsteps(
         (k, line) for k, line in enumerate(read_lines(path), 1) if line.strip() and not line.startswith("#")
     ]
     if not rows:
-        raise FormatError(path, f"empty; expected a header line {','.join(COLUMNS)} and a row for each step")
+        raise FormatError(
+            path, f"empty; expected a header line {','.join(FOOTSTEP_COLUMNS)} and a row for each step"
+        )
     _check_header(path, *rows[0])
     feet = [_footstep(path, k, line) for k, line in rows[1:]]
     if len(feet) < 3:
@@ -60,24 +62,24 @@ def save_footsteps(walk: Footsteps, path: str | Path) -> None:
         for foot in (*walk.start, *walk.steps)
     ]
     title = "# Footsteps: the point of each sole under the ankle. Two feet that stand, then a row a step."
-    write_text(Path(path), "\n".join([title, ",".join(COLUMNS), *rows, ""]))
+    write_text(Path(path), "\n".join([title, ",".join(FOOTSTEP_COLUMNS), *rows, ""]))
 
 
 def _check_header(path: Path, number: int, line: str) -> None:
     names = [name.strip() for name in line.split(",")]
-    if tuple(names) != COLUMNS:
-        raise FormatError(path, f"its header is not {','.join(COLUMNS)}", line=number)
+    if tuple(names) != FOOTSTEP_COLUMNS:
+        raise FormatError(path, f"its header is not {','.join(FOOTSTEP_COLUMNS)}", line=number)
 
 
 def _footstep(path: Path, number: int, line: str) -> Footstep:
     cells = [cell.strip() for cell in next(csv.reader([line]))]
-    if len(cells) != len(COLUMNS):
-        raise FormatError(path, f"{len(cells)} cells; expected {len(COLUMNS)}", line=number)
+    if len(cells) != len(FOOTSTEP_COLUMNS):
+        raise FormatError(path, f"{len(cells)} cells; expected {len(FOOTSTEP_COLUMNS)}", line=number)
     side: Side | None = next((side for side in SIDES if side == cells[0]), None)
     if side is None:
         raise FormatError(path, f"side is {cells[0][:40]!r}; expected left or right", line=number)
     values = []
-    for name, cell in zip(COLUMNS[1:], cells[1:], strict=True):
+    for name, cell in zip(FOOTSTEP_COLUMNS[1:], cells[1:], strict=True):
         try:
             values.append(plain_numbers.number(cell))
         except ValueError:

@@ -16,7 +16,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.frozen_fields import set_fields
 
-MOST_STEPS = 1000
+MOST_FOOTSTEPS = 1000
 """Of one plan: a quarter of an hour; more is a slip of the hand."""
 
 _FURTHEST = 1000.0  # from the start of a walk [m]
@@ -82,7 +82,7 @@ class Footsteps:
         set_fields(self, double_support=_share(self.double_support))
         if tuple(foot.side for foot in self.start) != SIDES:
             raise GaitError("footsteps: the start holds the left, then the right foot")
-        count("number of steps", len(self.steps), 1, MOST_STEPS, error=GaitError)
+        count("number of steps", len(self.steps), 1, MOST_FOOTSTEPS, error=GaitError)
         for k, (before, after) in enumerate(zip(self.steps, self.steps[1:], strict=False), 1):
             if before.side == after.side:
                 raise GaitError(
@@ -162,7 +162,7 @@ def footsteps(
         GaitError: A number is not accepted; the message says which.
         UnknownNameError: There is no such side.
     """
-    n = count("number of steps", steps, 1, MOST_STEPS - 1, error=GaitError)
+    n = count("number of steps", steps, 1, MOST_FOOTSTEPS - 1, error=GaitError)
     length = _within("step length", length, 2.0)
     degrees = round(math.degrees(number("turn", turn, error=GaitError)), 9)
     turn = math.radians(_within("turn of a step [deg]", degrees, _MOST_TURN))
