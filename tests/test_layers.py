@@ -14,7 +14,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "exo_pin"
 FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
-    {"arguments", "files", "scratch", "chunks"},
+    {"arguments", "files", "scratch", "chunks", "short_repr"},
     {"safe", "cache", "examples"},
     {"ros_packages"},
     {"xacro_files"},
@@ -53,6 +53,7 @@ GROUND = {
     "chunks",
     "physics",
     "frozen_fields",
+    "short_repr",
     "files",
     "cache",
     "anatomy",

@@ -20,6 +20,7 @@ from exo_pin.gait.normative import published_curve, speed_named, speed_of
 from exo_pin.gait.schwartz2008 import TIMING
 from exo_pin.gait.validation import read_only
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 PERCENT = read_only(np.linspace(0.0, 100.0, CYCLE_POINTS))
 """`(101,)` percent of the cycle."""
@@ -40,6 +41,8 @@ class ClinicalCycles:
     curves: Mapping[ClinicalAngle, Array]
     toe_off: Array
     sources: Mapping[ClinicalAngle, str]
+
+    __repr__ = short_repr
 
     def __len__(self) -> int:
         """Number of cycles k."""

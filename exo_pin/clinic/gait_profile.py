@@ -12,6 +12,7 @@ from exo_pin.anatomy.names import SIDES, ClinicalAngle, Side
 from exo_pin.arrays import Array
 from exo_pin.clinic.clinical_cycles import ClinicalCycles
 from exo_pin.clinic.normal_band import NormalBand
+from exo_pin.short_repr import short_repr
 
 CITATION = (
     "R. Baker, J. L. McGinley, M. H. Schwartz, S. Beynon, A. Rozumalski, H. K. Graham, O. Tirosh, "
@@ -55,6 +56,8 @@ class GaitProfile:
     overall: float
     spread: Mapping[Side, float]
     band: NormalBand
+
+    __repr__ = short_repr
 
     @property
     def missing(self) -> tuple[ClinicalAngle, ...]:

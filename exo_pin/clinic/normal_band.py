@@ -15,6 +15,7 @@ from exo_pin.clinic.clinical_cycles import ClinicalCycles
 from exo_pin.errors import GaitError
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait.normative import published_curve, speed_named
+from exo_pin.short_repr import short_repr
 
 LEAST_RECORDINGS = 2
 """Recordings that make a band: one has no spread."""
@@ -47,6 +48,8 @@ class NormalBand:
     name: str
     population: str
     curves: Mapping[ClinicalAngle, BandCurve]
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         ordered = {angle: self.curves[angle] for angle in CLINICAL_ANGLES if angle in self.curves}

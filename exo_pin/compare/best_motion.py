@@ -28,6 +28,7 @@ from exo_pin.ik.least_squares.rate_rows import Clock
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.kinematics.resting_stance import stand
 from exo_pin.robot import Robot, load_robot
+from exo_pin.short_repr import short_repr
 
 SOLVER = ik.Dls(tolerance=1e-10, restarts=0, warm_start=False)
 """Every sample starts from the plain copy, then from its neighbours' solutions; no other restarts."""
@@ -61,6 +62,8 @@ class DeviceMotion:
     corners: Array
     com: Array
     required: Array
+
+    __repr__ = short_repr
 
 
 def robot_for(device: Device, body: Body, conditions: Conditions) -> Robot:

@@ -20,6 +20,7 @@ from exo_pin.errors import GaitError
 from exo_pin.files import json_number
 from exo_pin.gait import Gait, Torques
 from exo_pin.kinematics import with_events
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,8 @@ class Comparison:
     projected: tuple[Loss, ...]
     motors: tuple[MotorDemand, ...] | None = None
     torques: str = ""
+
+    __repr__ = short_repr
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON; `motors` and `torques` where torques are given."""

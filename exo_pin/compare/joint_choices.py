@@ -19,6 +19,7 @@ from exo_pin.devices import movement_of
 from exo_pin.gait import Gait
 from exo_pin.ik.least_squares.dls import settle
 from exo_pin.kinematics import poses
+from exo_pin.short_repr import short_repr
 
 _SAMPLES = 25  # of a periodic gait are compared
 
@@ -55,6 +56,8 @@ class JointChoices:
 
     walk: Walk
     losses: dict[Subset, float]
+
+    __repr__ = short_repr
 
     @property
     def choices(self) -> list[Choice]:

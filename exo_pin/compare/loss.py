@@ -20,6 +20,7 @@ from exo_pin.files import json_number
 from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.phases import masks
 from exo_pin.gait.rigid_poses import angle_of
+from exo_pin.short_repr import short_repr
 
 _COMPARED: tuple[Movement, ...] = ("hip_flexion", "knee_flexion")  # movements whose change is reported
 
@@ -44,6 +45,8 @@ class Loss:
     device: Device
     walk: Walk
     motion: DeviceMotion
+
+    __repr__ = short_repr
 
     @cached_property
     def sole_error(self) -> Array:

@@ -15,6 +15,7 @@ from exo_pin.errors import UnknownNameError
 from exo_pin.gait import Gait
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot, load_robot
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ class Walk:
     feet: Array
     corners: Array
     com: Array
+
+    __repr__ = short_repr
 
 
 def walk(gait: Gait, body: Body | None = None) -> Walk:

@@ -10,6 +10,7 @@ from exo_pin.control.users_code import users_code
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(slots=True, eq=False)
@@ -33,6 +34,8 @@ class Reference:
     ddq: Array
     feed_forward: Array
     missing: Array
+
+    __repr__ = short_repr
 
 
 @runtime_checkable

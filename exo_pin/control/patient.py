@@ -14,6 +14,7 @@ from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.control.passive_moments import moments
 from exo_pin.frozen_fields import set_fields
+from exo_pin.short_repr import short_repr
 
 _STIFFEST, _MOST_DAMPING, _LONGEST_DELAY = 1000.0, 100.0, 1.0
 """Of a person's own joints [N m/rad, N m s/rad] and nerves [s]: what is larger is a wrong unit."""
@@ -46,6 +47,8 @@ class Patient:
     spasticity: Array = field(default_factory=lambda: np.zeros(len(JOINTS)), kw_only=True)
     spastic_threshold: float = field(default=1.0, kw_only=True)
     delay: float = field(default=0.0, kw_only=True)
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         for name, most in _LARGEST.items():

@@ -17,6 +17,7 @@ from exo_pin.dynamics import Dynamics
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.leg_cycles import cycle_times
+from exo_pin.short_repr import short_repr
 
 
 class StrideWork(NamedTuple):
@@ -61,6 +62,8 @@ class JointTorque:
     motor_peak: float
     person_peak: float
 
+    __repr__ = short_repr
+
     def facts(self) -> dict[str, Any]:
         """Numbers for JSON; None for what is not known."""
         numbers = {
@@ -97,6 +100,8 @@ class WalkTorques:
     person: Array
     joints: Mapping[str, JointTorque]
     shared: str
+
+    __repr__ = short_repr
 
     def facts(self) -> dict[str, Any]:
         """Numbers for JSON: those of the inverse dynamics, with more of each joint."""

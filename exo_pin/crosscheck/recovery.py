@@ -16,6 +16,7 @@ from exo_pin.gait import Gait
 from exo_pin.ik.settings import Settings
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 IK_TOLERANCE = 1e-9
 """Largest distance of a recovered foot from the given one [m and rad]."""
@@ -49,6 +50,8 @@ class Recovery:
     gait: Gait
     track: ik.Track
     within: Mask
+
+    __repr__ = short_repr
 
     @property
     def angle_error(self) -> Array:

@@ -16,6 +16,7 @@ from exo_pin.crosscheck.witnesses import FK_TOLERANCE, forward
 from exo_pin.demand import RangeDemand, range_demands
 from exo_pin.gait import Gait, normative_gait
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 from exo_pin.simulation import simulate
 
 _ITERATED = 1000  # samples that the slower iterative solver repeats
@@ -41,6 +42,8 @@ class Check:
     limits: dict[str, RangeDemand]
     agreement: float
     dynamics: dict[str, float] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def dynamics_ok(self) -> bool:

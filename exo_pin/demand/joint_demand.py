@@ -17,6 +17,7 @@ from exo_pin.devices.actuator import ACCELERATION_LIMIT, DEFAULT_ACCELERATIONS
 from exo_pin.gait import Gait, Torques
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +37,8 @@ class JointDemand:
     speed: PeakDemand
     acceleration: PeakDemand
     torque: PeakDemand | None = None
+
+    __repr__ = short_repr
 
     @property
     def prismatic(self) -> bool:

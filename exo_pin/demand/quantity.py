@@ -14,6 +14,7 @@ from exo_pin.arrays import Array, Mask, as_floats
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +28,8 @@ class RangeDemand:
 
     required: Array
     available: tuple[float, float]
+
+    __repr__ = short_repr
 
     @property
     def lowest(self) -> float:
@@ -90,6 +93,8 @@ class PeakDemand:
 
     required: Array
     available: float
+
+    __repr__ = short_repr
 
     @property
     def peak(self) -> float:

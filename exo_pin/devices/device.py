@@ -21,6 +21,7 @@ from exo_pin.devices.actuator import (
 )
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
+from exo_pin.short_repr import short_repr
 
 SLIDES = ("pelvis_forward", "pelvis_left", "pelvis_up")
 """Slides that may carry the pelvis, from the stand outwards; the name is the positive direction."""
@@ -80,6 +81,8 @@ class Device:
     shanks: tuple[float, float] | None = None
     hip_breadths: tuple[float, float] | None = None
     remarks: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         if not _NAME.fullmatch(self.name):

@@ -13,6 +13,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.kinematics import joint_rates, smoothed_curves
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 from exo_pin.signals import CUTOFF
 
 _ORDER = 6
@@ -36,6 +37,8 @@ class Motion:
     a: Array
     base: Array
     how: str
+
+    __repr__ = short_repr
 
 
 def motion(robot: Robot, gait: Gait, *, cutoff: float | None = CUTOFF) -> Motion:

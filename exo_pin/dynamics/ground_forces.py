@@ -10,6 +10,7 @@ from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Mask
 from exo_pin.gait.trial import ForcePlate
+from exo_pin.short_repr import short_repr
 from exo_pin.signals import longest_run
 
 LOADED = 20.0
@@ -29,6 +30,8 @@ class GroundForces:
     force: Array
     point: Array
     moment: Array
+
+    __repr__ = short_repr
 
     @property
     def wrench(self) -> Array:

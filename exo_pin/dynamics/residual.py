@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from exo_pin.arrays import Array
+from exo_pin.short_repr import short_repr
 
 FORCE_THRESHOLD = 0.05
 """Largest residual force as a part of the largest external force (Hicks et al., J Biomech Eng 137:020905,
@@ -32,6 +33,8 @@ class Residual:
     external: Array
     com_height: float
     weight: float
+
+    __repr__ = short_repr
 
     @property
     def force_rms(self) -> float:

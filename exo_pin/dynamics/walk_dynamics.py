@@ -18,6 +18,7 @@ from exo_pin.dynamics.residual import Residual
 from exo_pin.gait import Torques
 from exo_pin.gait.trial import ForcePlate
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 RIGID_TRUNK = (
     "Head, arms and trunk move with the pelvis as one rigid body: a recording's lumbar motion is not used, "
@@ -64,6 +65,8 @@ class Dynamics:
     weight: WeightCheck | None
     source: str
     remarks: tuple[str, ...]
+
+    __repr__ = short_repr
 
     @property
     def power(self) -> Array:

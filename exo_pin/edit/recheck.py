@@ -10,6 +10,7 @@ import numpy as np
 from exo_pin.demand import JointDemand, joint_demands
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +22,8 @@ class Recheck:
     """
 
     demands: tuple[JointDemand, ...]
+
+    __repr__ = short_repr
 
     @property
     def angle(self) -> dict[str, float]:

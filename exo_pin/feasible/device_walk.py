@@ -13,6 +13,7 @@ from exo_pin.feasible.concession import Concession
 from exo_pin.feasible.feasibility import Feasibility
 from exo_pin.gait import Gait
 from exo_pin.ground import belt_speed
+from exo_pin.short_repr import short_repr
 
 _BELT = 0.005
 """A belt that is beyond the device's speeds by less than this is not [m/s]: rounding of two decimals."""
@@ -39,6 +40,8 @@ class DeviceWalk:
     verdict: FitWord
     concessions: tuple[Concession, ...]
     conditions: Conditions
+
+    __repr__ = short_repr
 
     @property
     def ok(self) -> bool:

@@ -20,6 +20,7 @@ from exo_pin.gait.phases import PHASES, percent
 from exo_pin.gait.time_series import runs
 from exo_pin.robot import Robot
 from exo_pin.robot.model import LIMIT_TOLERANCE
+from exo_pin.short_repr import short_repr
 
 LARGEST_CADENCE = 10.0
 """Factors on the cadence end here."""
@@ -75,6 +76,8 @@ class Feasibility:
     dropped: dict[str, float]
     cadence: float
     amplitude: float
+
+    __repr__ = short_repr
 
     @property
     def colliding(self) -> Mask:

@@ -13,6 +13,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.further_angles import FurtherAngles
 from exo_pin.gait.torques import Torques
 from exo_pin.gait.trial import ForcePlate, Markers
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +28,8 @@ class TrialFile:
     """
 
     path: Path
+
+    __repr__ = short_repr
 
     @property
     def needs_inverse_kinematics(self) -> bool:

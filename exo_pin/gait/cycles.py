@@ -20,6 +20,7 @@ from exo_pin.gait.heading import mean_heading
 from exo_pin.gait.rigid_poses import nearest_pose
 from exo_pin.gait.strides import Stride, strides, unrolled
 from exo_pin.gait.validation import read_only
+from exo_pin.short_repr import short_repr
 
 CYCLE_POINTS = 101
 """0, 1, ... 100 % of the cycle."""
@@ -55,6 +56,8 @@ class Cycles:
     base: Array | None = None
     contacts: Mapping[tuple[EventKind, Side], Array] = field(default_factory=dict)
     sources: Mapping[tuple[EventKind, Side], str] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     def __len__(self) -> int:
         """Number of cycles k."""

@@ -15,6 +15,7 @@ from exo_pin.gait.cycles import CYCLE_POINTS, cycles
 from exo_pin.gait.gait import Gait
 from exo_pin.gait.half_strides import stride_estimate
 from exo_pin.gait.strides import strides
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +39,8 @@ class LegCycle:
     stance: float
     note: str
     each: Array | None = None
+
+    __repr__ = short_repr
 
 
 def leg_cycles(gait: Gait) -> tuple[LegCycle, ...]:

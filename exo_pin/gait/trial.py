@@ -17,6 +17,7 @@ from exo_pin.errors import GaitError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.validation import FURTHEST, check_time, frozen
+from exo_pin.short_repr import short_repr
 
 UP_AXES: tuple[Vertical, ...] = ("+x", "+y", "+z", "-x", "-y", "-z")
 """Axes that can be the vertical of a laboratory."""
@@ -47,6 +48,8 @@ class ForcePlate:
     point: Array
     moment: Array
     remarks: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         vectors = {"force": self.force, "point": self.point, "moment": self.moment}
@@ -111,6 +114,8 @@ class Markers:
     source: str = ""
     remarks: tuple[str, ...] = ()
     unit: str = ""
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         angles = table("angles", self.angles, error=GaitError)

@@ -18,6 +18,7 @@ from exo_pin.ground.stance import Intervals, estimated_stance, lowest_corners, s
 from exo_pin.ground.support import Support, support
 from exo_pin.kinematics import center_of_mass, poses
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 _EXOSKELETON = "Balance support: the pelvis"
 """Subject of the note on the support: an exoskeleton's pelvis hangs in one."""
@@ -48,6 +49,8 @@ class PlacedWalk:
     stance: Intervals
     estimated: bool
     support: Support
+
+    __repr__ = short_repr
 
 
 def place_walk(robot: Robot, gait: Gait, style: SupportStyle = "carried") -> PlacedWalk:

@@ -21,6 +21,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.time_series import low_harmonics
 from exo_pin.ground.misfit import ahead, in_mm, misfit
 from exo_pin.ground.stance import Intervals, lowest_corners, standing
+from exo_pin.short_repr import short_repr
 
 _SOFTNESS = 0.003
 """Height difference [m] over which the weight goes from one corner to the next: bounds the sinking."""
@@ -67,6 +68,8 @@ class Support:
     slide: float
     slide_along: float
     note: str
+
+    __repr__ = short_repr
 
 
 def support(

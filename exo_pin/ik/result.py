@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.arrays import Array, Index, Mask, to_host
+from exo_pin.short_repr import short_repr
 
 _AT_LIMIT = 1e-9
 """A joint this close to its limit lies on it [rad]: rounding only."""
@@ -44,6 +45,8 @@ class Track:
     solvers: tuple[str, ...]
     lower: Array
     upper: Array
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         for values in vars(self).values():
@@ -103,3 +106,5 @@ class Solution:
     active_limits: Mask
     reach_slack: Array
     solver: str
+
+    __repr__ = short_repr

@@ -14,6 +14,7 @@ from exo_pin.arrays import Array, Index, as_floats, beside, is_remote
 from exo_pin.chunks import for_chunks
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 _ORTHONORMAL = 1e-6
 """Largest `deviation` from a pose that passes as rounding; what passes is straightened."""
@@ -34,6 +35,8 @@ class Pose:
     position_weight: float = 1.0
     rotation_weight: float = 1.0
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, eq=False)
 class Position:
@@ -46,6 +49,8 @@ class Position:
 
     p: npt.ArrayLike
     weight: float = 1.0
+
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +67,8 @@ class Points:
     local: npt.ArrayLike
     p: npt.ArrayLike
     weight: npt.ArrayLike = 1.0
+
+    __repr__ = short_repr
 
 
 Target = npt.ArrayLike | Pose | Position | Points

@@ -12,6 +12,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait, time_series
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 _EXACT = 1e-6  # [s] off an even grid: rounding
 
@@ -29,6 +30,8 @@ class JointRates:
     dq: Array
     ddq: Array
     how: str
+
+    __repr__ = short_repr
 
 
 def joint_rates(robot: Robot, gait: Gait, *, cutoff: float | None) -> JointRates:

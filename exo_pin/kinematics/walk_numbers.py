@@ -31,6 +31,7 @@ from exo_pin.gait.toe_clearance import toe_clearances
 from exo_pin.kinematics.sole_contact import recorded_height, with_events
 from exo_pin.kinematics.sole_points import sole_points
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 ON_THE_MODEL = "model's feet"
 """Where lengths are measured without markers: at the heel of the sole, the ball for clearance."""
@@ -61,6 +62,8 @@ class WalkNumbers:
     estimate: StrideEstimate | None = None
     manner: Manner = "walk"
     unknown: str = ""
+
+    __repr__ = short_repr
 
     @property
     def cycles(self) -> dict[Side, int]:

@@ -33,6 +33,7 @@ from exo_pin.markers.recognition import Recognised, fewest_on, recognise
 from exo_pin.markers.spots import MarkerSet
 from exo_pin.markers.trial_doubts import misfit_doubts, range_doubts, side_doubts
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +57,8 @@ class Reconstruction:
     error: Array
     filled: int
     doubts: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     @property
     def rms(self) -> Array:

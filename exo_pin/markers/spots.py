@@ -12,6 +12,7 @@ from exo_pin.anatomy.names import HipRegression, Segment, Side
 from exo_pin.arguments import names, number, real, table, text, word
 from exo_pin.errors import DescriptionError
 from exo_pin.markers.person_sizes import Sizes
+from exo_pin.short_repr import short_repr
 
 SEGMENTS: tuple[Segment, ...] = get_args(Segment)
 
@@ -71,6 +72,8 @@ class MarkerSet:
     also: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     known_as: tuple[str, ...] = ()
     sizes: Sizes | None = None
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         if isinstance(self.hips, str):

@@ -20,6 +20,7 @@ from exo_pin.retarget.robot_legs import RobotLeg
 from exo_pin.retarget.target_robots import TARGETS, UNFIT, Target
 from exo_pin.robot import Robot, load_urdf, urdf_joints, urdf_tree
 from exo_pin.robot.urdf_joints import Follower
+from exo_pin.short_repr import short_repr
 
 _UPWARD = ("z", "y", "x", "-z", "-y", "-x")
 """Axes of the root link that may point up, in the order in which they are tried."""
@@ -44,6 +45,8 @@ class Biped:
     rotation: Array
     legs: tuple[RobotLeg, RobotLeg]
     follow: Mapping[str, Follower] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from exo_pin.retarget.biped import Biped
 from exo_pin.retarget.feet import largest_step
 from exo_pin.retarget.target_robots import Target
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 _REACHED = 1e-5
 """A foot further from its goal than this is missed [m, rad]."""
@@ -114,6 +115,8 @@ class Retargeted:
     attitudes: Array
     body: Body
     notes: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     @property
     def target(self) -> Target:

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from exo_pin.arguments import names, number, real, table, text, word
 from exo_pin.errors import DescriptionError
 from exo_pin.retarget.axes import SIGNED_AXES
+from exo_pin.short_repr import short_repr
 
 Pair = tuple[float, float]
 
@@ -52,6 +53,8 @@ class Target:
     paint: tuple[float, float, float, float] | None = None
     licence: str = ""
     remarks: str = ""
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         for name in ("name", "title", "licence", "remarks"):

@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.arrays import Array, Index
+from exo_pin.short_repr import short_repr
 
 LEG_JOINTS = 6
 Derived = TypeVar("Derived")
@@ -38,6 +39,8 @@ class LegAxes:
     tip: Array
     lower: Array
     upper: Array
+
+    __repr__ = short_repr
 
     @cached_property
     def hip(self) -> Array:

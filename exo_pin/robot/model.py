@@ -31,6 +31,7 @@ from exo_pin.robot.subtree import (
     read_subtree,
     supporting_joints,
 )
+from exo_pin.short_repr import short_repr
 
 LIMIT_TOLERANCE = 1e-9
 """A value this little beyond its limit is on it [rad, rad/s, rad/s^2, m]: the excess is rounding."""
@@ -74,6 +75,8 @@ class Robot:
     path: Path | None = None
     masses: Masses = "both"
     remarks: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     @property
     def name(self) -> str:

@@ -13,6 +13,7 @@ import pinocchio as pin
 from exo_pin.arrays import Array, Index
 from exo_pin.robot.floating_base import FREE
 from exo_pin.robot.subtree_arrays import SubtreeArrays, read_arrays
+from exo_pin.short_repr import short_repr
 
 _LINK = " (link)"  # added for a moment to the name of a link that a joint has too
 
@@ -38,6 +39,8 @@ class Subtree:
     lower: Array
     upper: Array
     floating: bool
+
+    __repr__ = short_repr
 
     @cached_property
     def arrays(self) -> SubtreeArrays | None:

@@ -13,6 +13,7 @@ import numpy as np
 import pinocchio as pin
 
 from exo_pin.arrays import Array, Mask
+from exo_pin.short_repr import short_repr
 
 
 class SubtreePose(NamedTuple):
@@ -52,6 +53,8 @@ class SubtreeArrays:
     carriers: tuple[int, ...]
     moves: Mask
     frames: Array
+
+    __repr__ = short_repr
 
     def pose(self, q: Array) -> SubtreePose:
         """Where axes and frames are at the configurations q (J, m) [rad, m]."""

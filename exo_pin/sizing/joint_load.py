@@ -11,6 +11,7 @@ import numpy as np
 from exo_pin.arguments import number, real, text
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
+from exo_pin.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,8 @@ class JointLoad:
     torque: Array
     share: Array
     stride: float = math.nan
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         text("joint", self.joint)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from exo_pin.short_repr import short_repr
 from exo_pin.sizing.gear import GearedUse, Ratios
 from exo_pin.sizing.joint_load import JointLoad, Spring, known
 from exo_pin.sizing.motor import Motor
@@ -32,6 +33,8 @@ class JointSizing:
     given: GearedUse | None = None
     ratios: Ratios | None = None
     spring: Spring | None = None
+
+    __repr__ = short_repr
 
     @property
     def use(self) -> GearedUse | None:

@@ -18,6 +18,7 @@ from exo_pin.dynamics import Dynamics
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 from exo_pin.sizing.gear import fitting_ratios, geared
 from exo_pin.sizing.joint_load import JointLoad
 from exo_pin.sizing.joint_sizing import JointSizing
@@ -46,6 +47,8 @@ class Sizing:
     reaction: Reaction
     source: str
     remarks: tuple[str, ...]
+
+    __repr__ = short_repr
 
     @property
     def fits(self) -> bool:

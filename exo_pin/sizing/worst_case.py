@@ -13,6 +13,7 @@ from exo_pin.anatomy.names import Speed
 from exo_pin.arguments import word
 from exo_pin.gait import SPEEDS, normative_gait
 from exo_pin.robot import load_robot
+from exo_pin.short_repr import short_repr
 from exo_pin.sizing.gear import Ratios, fitting_ratios
 from exo_pin.sizing.joint_load import JointLoad
 from exo_pin.sizing.motor import Motor
@@ -56,6 +57,8 @@ class WorstCase:
     effort: float
     velocity: float
     ratios: Ratios | None
+
+    __repr__ = short_repr
 
     def worst(self, quantity: str) -> tuple[float, SizingCase]:
         """The largest value of a property of `JointLoad`, or of `energy`, and its case.

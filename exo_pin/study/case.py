@@ -19,6 +19,7 @@ from exo_pin.files import read_bytes
 from exo_pin.formats import load_gait, open_trial
 from exo_pin.gait import Gait, normative_gait, speed_named
 from exo_pin.kinematics import plausibility
+from exo_pin.short_repr import short_repr
 from exo_pin.study.fingerprint import code_digest, fingerprint, plain
 from exo_pin.study.study_table import MOTIONS, MotionKind, Row, phase_column
 
@@ -44,6 +45,8 @@ class Case:
     preset: SignPreset | None = None
     version: str = field(default_factory=lambda: version.__version__)
     code: str = field(default_factory=code_digest)
+
+    __repr__ = short_repr
 
     @functools.cached_property
     def fingerprints(self) -> tuple[str, ...]:

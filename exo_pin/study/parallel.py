@@ -8,6 +8,7 @@ from itertools import chain, zip_longest
 from pathlib import Path
 
 from exo_pin.errors import FormatError
+from exo_pin.short_repr import short_repr
 from exo_pin.study import study_table
 from exo_pin.study.case import Case, Outcome, solve
 from exo_pin.study.earlier_rows import Earlier, earlier
@@ -35,6 +36,8 @@ class Study:
     computed: int
     kept: int
     remarks: tuple[str, ...] = ()
+
+    __repr__ = short_repr
 
     @property
     def walks(self) -> int:

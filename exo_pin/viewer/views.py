@@ -14,6 +14,7 @@ from exo_pin.arguments import count
 from exo_pin.gait import Gait, Torques
 from exo_pin.retarget import Retargeted, retarget
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 from exo_pin.viewer.page.packing import html
 from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
 from exo_pin.viewer.scenes.kinetics import Kinetics
@@ -126,6 +127,8 @@ class View:
 
     page: str
     height: int
+
+    __repr__ = short_repr
 
     def save(self, path: str | Path) -> None:
         """Write the page to a file that any browser opens."""

@@ -22,6 +22,7 @@ from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import Event
 from exo_pin.gait.even_clock import even_clock, evened_remark, within
 from exo_pin.gait.validation import check_events, check_poses, check_time, frozen
+from exo_pin.short_repr import short_repr
 
 _TIME = "time_s"
 _PELVIS = "pelvis"
@@ -53,6 +54,8 @@ class Poses:
     periodic: bool
     source: str
     remarks: tuple[str, ...]
+
+    __repr__ = short_repr
 
     def __init__(
         self,

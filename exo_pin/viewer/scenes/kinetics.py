@@ -12,6 +12,7 @@ from exo_pin.arrays import Array, Index
 from exo_pin.errors import GaitError
 from exo_pin.kinematics import poses
 from exo_pin.robot.gait_columns import in_joint_order
+from exo_pin.short_repr import short_repr
 
 if TYPE_CHECKING:
     from exo_pin.dynamics import Dynamics
@@ -68,6 +69,8 @@ class Kinetics:
     unloading: float
     source: str
     effort: Effort | None = None
+
+    __repr__ = short_repr
 
     @classmethod
     def of_dynamics(cls, found: Dynamics) -> Kinetics:

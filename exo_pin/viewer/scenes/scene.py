@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo_pin.anatomy.names import Side
+from exo_pin.short_repr import short_repr
 from exo_pin.viewer.drawing_commands import Command
 
 if TYPE_CHECKING:
@@ -344,6 +345,8 @@ class Scene:
     commands: tuple[Command, ...]
     arrays: Mapping[str, NDArray[np.floating[Any]]]
     robot: Robot | None = None
+
+    __repr__ = short_repr
 
     @property
     def title(self) -> str:

@@ -9,6 +9,7 @@ from exo_pin.arguments import number, word
 from exo_pin.gait import Gait
 from exo_pin.ground import STYLES, PlacedWalk
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 from exo_pin.viewer.scenes.actor import Actor, Mount
 from exo_pin.viewer.scenes.balance_support import DrawnSupport
 from exo_pin.viewer.scenes.force_marks import ShownForces
@@ -42,6 +43,8 @@ class SceneOptions:
     notes: tuple[str, ...] = ()
     speed: float = 1.0
     beside: bool = False
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         word("support", self.support, STYLES)
