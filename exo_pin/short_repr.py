@@ -13,13 +13,14 @@ _LONGEST_VALUE = 48
 
 
 def short_repr(record: Any) -> str:
-    """`Name(field=value, ...)` of a dataclass in at most `LONGEST` characters.
+    """`Name(field=value, ...)` of a dataclass or named tuple in at most `LONGEST` characters.
 
     Give it to a record that holds arrays or other records as its `__repr__`: the generated one prints them
     all, up to megabytes.
     """
-    shown = {field.name: getattr(record, field.name) for field in dataclasses.fields(record) if field.repr}
-    parts = ", ".join(f"{name}={_short(value)}" for name, value in shown.items())
+    fields = dataclasses.fields(record) if _is_record(record) else ()
+    names = [field.name for field in fields if field.repr] or record._fields
+    parts = ", ".join(f"{name}={_short(getattr(record, name))}" for name in names)
     text = f"{type(record).__name__}({parts})"
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 5]} ...)"
 
@@ -28,7 +29,7 @@ def _short(value: object) -> str:
     shape = getattr(value, "shape", None)
     if isinstance(shape, tuple) and shape:
         return f"array{shape}".replace(",)", ")")
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+    if _is_record(value):
         return f"<{type(value).__name__}>"
     if isinstance(value, Mapping | list | tuple | set | frozenset):
         return _several(value)
@@ -37,6 +38,10 @@ def _short(value: object) -> str:
         size = f"{len(value)} characters" if isinstance(value, str) else type(value).__name__
         return f"<{size}>"
     return text
+
+
+def _is_record(value: object) -> bool:
+    return dataclasses.is_dataclass(value) and not isinstance(value, type)
 
 
 def _several(values: Sized) -> str:

@@ -12,6 +12,7 @@ from exo_pin.arguments import count, number, real
 from exo_pin.arguments import names as as_names
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
+from exo_pin.short_repr import short_repr
 
 CUTOFF = 6.0
 """Usual in gait laboratories [Hz]."""
@@ -47,6 +48,9 @@ class Filled(NamedTuple):
     values: Array
     filled: int
     left: int
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class Outlier(NamedTuple):

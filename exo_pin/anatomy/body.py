@@ -18,6 +18,7 @@ from exo_pin.anatomy.sizes import LEG_SIZES, SIZES, checked, checked_limits
 from exo_pin.errors import DescriptionError, ExoPinError, FormatError, UnknownNameError
 from exo_pin.frozen_fields import set_fields
 from exo_pin.safe import toml_file
+from exo_pin.short_repr import short_repr
 
 _LONGEST_LEG = 0.75  # of the stature; 0.53 is average
 
@@ -89,6 +90,8 @@ class Body:
     sex: Sex = "male"
     wearer: bool = True
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @classmethod
     def from_stature(

@@ -34,6 +34,9 @@ class BandCurve(NamedTuple):
     sd: Array
     n: int
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 @dataclass(frozen=True, eq=False)
 class NormalBand:

@@ -19,6 +19,7 @@ from exo_pin.devices import Device
 from exo_pin.errors import GaitError
 from exo_pin.files import json_number
 from exo_pin.gait import Gait, Torques
+from exo_pin.html_summary import table
 from exo_pin.kinematics import with_events
 from exo_pin.short_repr import short_repr
 
@@ -44,6 +45,10 @@ class Comparison:
     torques: str = ""
 
     __repr__ = short_repr
+
+    def _repr_html_(self) -> str:
+        """What each device loses at best, for notebooks."""
+        return table({f"{loss.device.name}, rms loss of the feet [mm]": 1e3 * loss.rms for loss in self.best})
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON; `motors` and `torques` where torques are given."""

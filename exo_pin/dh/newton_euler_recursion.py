@@ -23,6 +23,7 @@ from exo_pin.dh.moving_links import PELVIS, links_with_toes, moving_masses
 from exo_pin.dh.recursion import Link, joint_pose
 from exo_pin.errors import DescriptionError
 from exo_pin.physics import GRAVITY
+from exo_pin.short_repr import short_repr
 
 _LIFT = np.array([0.0, 0.0, GRAVITY])
 """Acceleration that stands for the weight [m/s^2]."""
@@ -41,6 +42,9 @@ class PelvisState(NamedTuple):
     velocity: Array
     acceleration: Array
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 class JointState(NamedTuple):
     """Motion of one joint in n samples: `(n,)` angle, velocity, acceleration [rad, rad/s, rad/s^2]."""
@@ -48,6 +52,9 @@ class JointState(NamedTuple):
     q: Array
     dq: Array
     ddq: Array
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class Needed(NamedTuple):
@@ -60,6 +67,9 @@ class Needed(NamedTuple):
 
     pelvis: Array
     joints: dict[str, Array]
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class _LinkMotion(NamedTuple):

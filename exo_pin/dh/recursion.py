@@ -12,6 +12,7 @@ from exo_pin.anatomy.names import JOINTS, SIDES, HipOrder
 from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.dh.leg_chain import chain, soles
+from exo_pin.short_repr import short_repr
 
 _RIGHT_AXES = {
     "hip_flexion": (0.0, -1.0, 0.0),
@@ -31,6 +32,9 @@ class Link(NamedTuple):
     mother: str
     offset: Array
     axis: Array
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 def tree(body: Body, hip_order: HipOrder = "clinical") -> list[Link]:

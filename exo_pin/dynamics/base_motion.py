@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arguments import number, real
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
-from exo_pin.gait.rigid_poses import nearest_pose
+from exo_pin.gait.rigid_poses import in_own_axes, nearest_pose
 from exo_pin.kinematics import joint_rates, smoothed_curves
 from exo_pin.robot import Robot
 from exo_pin.short_repr import short_repr
@@ -75,8 +75,7 @@ def motion(robot: Robot, gait: Gait, *, cutoff: float | None = CUTOFF) -> Motion
 def in_pelvis_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
     """Velocity and spatial acceleration of a frame, in its own axes, as Pinocchio's free joint has them.
 
-    The spatial linear acceleration is not that of the origin: a_lin = R^T p'' - w x v_lin (Featherstone,
-    Rigid Body Dynamics Algorithms, 2008, section 2.11).
+    Formula and source: `exo_pin.gait.rigid_poses.in_own_axes`.
 
     Args:
         T: `(n, 4, 4)` poses in the world.
@@ -92,14 +91,7 @@ def in_pelvis_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Arra
     T = real("T", T, ("n", 4, 4))
     velocity = real("velocity", velocity, (len(T), 6))
     acceleration = real("acceleration", acceleration, (len(T), 6))
-    R = T[:, :3, :3]
-
-    def own(x: Array) -> Array:
-        return np.hstack([np.einsum("nji,nj->ni", R, part) for part in (x[:, :3], x[:, 3:])])
-
-    v, a = own(velocity), own(acceleration)
-    a[:, :3] -= np.cross(v[:, 3:], v[:, :3])
-    return v, a
+    return in_own_axes(T, velocity, acceleration)
 
 
 def _smoothed(gait: Gait, cutoff: float | None) -> tuple[Gait, str]:

@@ -17,6 +17,7 @@ from exo_pin.dynamics.plate_checks import WeightCheck
 from exo_pin.dynamics.residual import Residual
 from exo_pin.gait import Torques
 from exo_pin.gait.trial import ForcePlate
+from exo_pin.html_summary import joint_panels, table
 from exo_pin.robot import Robot
 from exo_pin.short_repr import short_repr
 
@@ -106,6 +107,16 @@ class Dynamics:
     def foot_forces(self) -> dict[Side, ForcePlate]:
         """Forces of the ground on each foot over the longest run of valid frames, without gaps."""
         return foot_plates(self.ground, self.time, self.valid)
+
+    def _repr_html_(self) -> str:
+        """The torques as a row of panels, for notebooks."""
+        facts = {
+            "ground reaction": self.reaction,
+            "valid frames": f"{int(self.valid.sum())} of {len(self.valid)}",
+            "mass [kg]": self.mass,
+            "source": self.source,
+        }
+        return joint_panels(self.time, self.torque, "N m") + table(facts)
 
     def facts(self) -> dict[str, Any]:
         """Peaks and sums as plain values for JSON, over the valid frames; units as the keys say."""

@@ -13,6 +13,7 @@ from exo_pin.arguments import real
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 _CHAIN = ("pelvis", "thigh", "shank", "sole_plate", "toe_plate")
 """The links with a shape, from the pelvis outwards; neighbours share a hip or ankle and may touch."""
@@ -28,6 +29,9 @@ class Nearest(NamedTuple):
 
     distance: Array
     pairs: list[tuple[str, str]]
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 def nearest(robot: Robot, q: npt.ArrayLike) -> Nearest:

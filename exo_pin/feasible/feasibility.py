@@ -39,6 +39,9 @@ class Failure(NamedTuple):
     how: str
     samples: Mask
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
     @property
     def frames(self) -> list[tuple[int, int]]:
         """First and last sample of each run of failing samples."""

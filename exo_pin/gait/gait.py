@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.anatomy.names import Side
 from exo_pin.arguments import MOST_SAMPLES, count, number
 from exo_pin.arrays import Array, Mask
-from exo_pin.errors import GaitError
+from exo_pin.errors import GaitError, known_name
 from exo_pin.frozen_fields import set_fields
 from exo_pin.gait import rigid_poses, time_series
 from exo_pin.gait.event import Event, stance
@@ -24,6 +25,11 @@ from exo_pin.gait.validation import (
     frozen,
     read_only,
 )
+from exo_pin.html_summary import joint_panels, table
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from xarray import DataArray
 
 _ON_GRID = 1e-6
 """A sample this little before the recording's start, in samples, is on it."""
@@ -83,9 +89,22 @@ class Gait:
         size = f"{len(self)} samples, {self.duration:.3f} s, {kind}, {base}, {len(self.events)} events"
         return f"<Gait {size}, source={self.source!r}>"
 
+    def _repr_html_(self) -> str:
+        """The angles as a row of panels, for notebooks."""
+        facts = {"samples": len(self), "duration [s]": self.duration, "source": self.source}
+        return joint_panels(self.time, np.degrees(self.q), "deg") + table(facts)
+
     def __len__(self) -> int:
         """Number of samples n."""
         return len(self.time)
+
+    def __getitem__(self, joint: str) -> Array:
+        """Angles `(n,)` of one joint by its name, e.g. `gait["right_knee_flexion"]` [rad].
+
+        Raises:
+            UnknownNameError: There is no such joint.
+        """
+        return self.q[:, JOINTS.index(known_name("joint", joint, JOINTS))]
 
     @property
     def duration(self) -> float:
@@ -123,6 +142,25 @@ class Gait:
         linear = time_series.derivative(self.time, self.base[:, :3, 3], 2, self._period)
         angular = time_series.derivative(self.time, self.base_velocity[:, 3:], 1, self._period)
         return read_only(np.hstack([linear, angular]))
+
+    def to_pandas(self) -> DataFrame:
+        """A pandas `DataFrame`, see `exo_pin.gait.data_frames.to_pandas`; needs the extra `tables`."""
+        from exo_pin.gait.data_frames import to_pandas
+
+        return to_pandas(self)
+
+    def to_xarray(self) -> DataArray:
+        """An xarray `DataArray` with the dimensions time and joint; needs the extra `tables`."""
+        from exo_pin.gait.data_frames import to_xarray
+
+        return to_xarray(self)
+
+    @classmethod
+    def from_pandas(cls, frame: DataFrame) -> Gait:
+        """The walk of a `DataFrame` as `to_pandas` makes it; raises `GaitError` where columns are missing."""
+        from exo_pin.gait.data_frames import columns_of
+
+        return cls(**columns_of(frame))
 
     def resampled(self, n: int) -> Gait:
         """The same walk with `n` evenly spaced samples.

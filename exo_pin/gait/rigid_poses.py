@@ -66,3 +66,24 @@ def angular_velocity(R: Array, dR: Array) -> Array:
     W = dR @ np.swapaxes(R, 1, 2)  # skew up to the differencing's error
     W = (W - np.swapaxes(W, 1, 2)) / 2
     return np.stack([W[:, 2, 1], W[:, 0, 2], W[:, 1, 0]], axis=1)
+
+
+def in_own_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
+    """Velocity and spatial acceleration of a frame in its own axes, as Pinocchio's free joint has them.
+
+    The spatial linear acceleration is not that of the origin: a_lin = R^T p'' - w x v_lin (Featherstone,
+    Rigid Body Dynamics Algorithms, 2008, section 2.11).
+
+    Args:
+        T: `(n, 4, 4)` poses in the world.
+        velocity: `(n, 6)` of the origin, then angular, world axes [m/s, rad/s].
+        acceleration: `(n, 6)` of the origin, then angular, world axes [m/s^2, rad/s^2].
+    """
+    R = T[:, :3, :3]
+
+    def own(x: Array) -> Array:
+        return np.hstack([np.einsum("nji,nj->ni", R, part) for part in (x[:, :3], x[:, 3:])])
+
+    v, a = own(velocity), own(acceleration)
+    a[:, :3] -= np.cross(v[:, 3:], v[:, :3])
+    return v, a

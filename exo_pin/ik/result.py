@@ -9,6 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from exo_pin.arrays import Array, Index, Mask, to_host
+from exo_pin.gait import Gait
+from exo_pin.html_summary import table
+from exo_pin.robot import Robot
 from exo_pin.short_repr import short_repr
 
 _AT_LIMIT = 1e-9
@@ -55,6 +58,27 @@ class Track:
 
     def __len__(self) -> int:
         return len(self.q)
+
+    def _repr_html_(self) -> str:
+        """How well the targets are met, for notebooks."""
+        facts: dict[str, object] = {"samples": len(self), "converged": int(np.sum(self.converged))}
+        for k, frame in enumerate(self.frames):
+            facts[f"{frame}, largest error [mm]"] = float(
+                1e3 * np.max(self.position_error[:, k], initial=0.0)
+            )
+        return table(facts)
+
+    def to_gait(self, robot: Robot, like: Gait) -> Gait:
+        """The joint angles as a gait, as `Robot.to_gait` has them.
+
+        Args:
+            robot: The robot that was solved.
+            like: Gives time, events and, for a held pelvis, the base.
+
+        Raises:
+            DescriptionError: The number of samples differs.
+        """
+        return robot.to_gait(self.q, like)
 
     @cached_property
     def active_limits(self) -> Mask:

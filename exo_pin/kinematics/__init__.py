@@ -4,9 +4,10 @@ from exo_pin.kinematics.center_of_mass import CenterOfMass, center_of_mass
 from exo_pin.kinematics.curve_outliers import CurveOutlier, curve_outliers
 from exo_pin.kinematics.event_differences import EventDifference, disagreements, event_differences
 from exo_pin.kinematics.foot_markers import foot_markers
+from exo_pin.kinematics.frame_motion import accelerations, jacobian, velocities
 from exo_pin.kinematics.joint_frames import deviation_from_parallel, joint_frames
 from exo_pin.kinematics.joint_rates import JointRates, joint_rates, smoothed_curves
-from exo_pin.kinematics.motion import accelerations, attitude, jacobian, poses, positions, velocities
+from exo_pin.kinematics.motion import attitude, poses, positions
 from exo_pin.kinematics.plate_contacts import PlateStep, plate_events, plate_steps, with_plates
 from exo_pin.kinematics.sole_contact import Contacts, contacts, events, with_events
 from exo_pin.kinematics.stance_slide import (

@@ -10,8 +10,17 @@ import pinocchio as pin
 
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
-from exo_pin.kinematics.motion import moved, rates, samples
+from exo_pin.gait import Gait
+from exo_pin.kinematics.frame_motion import rates
+from exo_pin.kinematics.gait_motion import (
+    GaitMotion,
+    carried_acceleration,
+    carried_velocity,
+    gait_motion,
+)
+from exo_pin.kinematics.motion import moved, samples
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 
 class CenterOfMass(NamedTuple):
@@ -27,10 +36,13 @@ class CenterOfMass(NamedTuple):
     velocity: Array
     acceleration: Array
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 def center_of_mass(
     robot: Robot,
-    q: npt.ArrayLike,
+    q: Gait | npt.ArrayLike,
     dq: npt.ArrayLike | None = None,
     ddq: npt.ArrayLike | None = None,
     *,
@@ -40,7 +52,7 @@ def center_of_mass(
 
     Args:
         robot: The robot.
-        q: Configurations (..., nq) [rad].
+        q: Configurations (..., nq) [rad], or a gait, whose own rates and moving pelvis are used.
         dq: Joint velocities (..., nv) [rad/s]; zero if left out.
         ddq: Joint accelerations (..., nv) [rad/s^2]; zero if left out.
         base: T_world_pelvis as in `exo_pin.kinematics.poses`.
@@ -50,6 +62,8 @@ def center_of_mass(
     """
     if not has_mass(robot):
         raise DescriptionError(f"{robot.name} has no centre of mass: no link of its URDF has a mass")
+    if isinstance(q, Gait):
+        return _of_gait(robot, gait_motion(robot, q))
     rows, shape = samples(robot, q)
     still = np.zeros((*shape, robot.model.nv))
     speeds = rates(robot, still if dq is None else dq, shape, "dq")
@@ -71,6 +85,16 @@ def center_of_mass(
 def has_mass(robot: Robot) -> bool:
     """Whether any link has a mass; some URDFs state geometry alone."""
     return any(inertia.mass > 0.0 for inertia in robot.model.inertias)
+
+
+def _of_gait(robot: Robot, walk: GaitMotion) -> CenterOfMass:
+    """Along a gait: about the still pelvis, and what its motion adds."""
+    still = center_of_mass(robot, walk.q, walk.dq, walk.ddq, base=walk.base)
+    position, velocity, acceleration = (part[:, None] for part in still)
+    moving = carried_velocity(walk, position, velocity)
+    return CenterOfMass(
+        still.position, moving[:, 0], carried_acceleration(walk, position, velocity, acceleration)[:, 0]
+    )
 
 
 def _with_root(robot: Robot, com: Array) -> Array:

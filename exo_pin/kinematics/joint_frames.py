@@ -6,7 +6,8 @@ import numpy as np
 
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
-from exo_pin.kinematics.motion import jacobian, poses
+from exo_pin.kinematics.frame_motion import jacobian
+from exo_pin.kinematics.motion import poses
 from exo_pin.robot import Robot
 
 

@@ -1,14 +1,11 @@
-"""Poses, velocities, accelerations and Jacobians of frames, one sample or many, by Pinocchio.
+"""Poses of frames, one sample or many or along a gait, by Pinocchio or formulas on whole arrays.
 
-Spatial vectors are linear first, then angular, both in world axes; the linear part is that of the frame's
-origin. `base` moves the whole robot: it is T_world_pelvis, one (4, 4) or one per sample (..., 4, 4), taken as
-held still; for the velocity of a moving pelvis load the robot with `base="floating"`.
+`base` moves the whole robot: it is T_world_pelvis, one (4, 4) or one per sample (..., 4, 4).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +16,8 @@ from exo_pin.arguments import names, real
 from exo_pin.arrays import Array, as_floats, beside, is_remote
 from exo_pin.chunks import for_chunks
 from exo_pin.errors import DescriptionError
+from exo_pin.gait import Gait
+from exo_pin.kinematics.gait_motion import placed
 from exo_pin.kinematics.leg_poses import legs_of, write_leg_poses
 from exo_pin.robot import Robot
 
@@ -26,18 +25,16 @@ _MANY = 200
 """From so many samples on formulas on whole arrays are quicker than Pinocchio, one sample after the other:
 equal at 30 (sole corners) to 100 (feet), 12 to 20 times as quick from 6000 on."""
 
-_AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-
 
 def poses(
-    robot: Robot, q: npt.ArrayLike, frames: Sequence[str] = FEET, *, base: npt.ArrayLike | None = None
+    robot: Robot, q: Gait | npt.ArrayLike, frames: Sequence[str] = FEET, *, base: npt.ArrayLike | None = None
 ) -> Array:
     """Poses T_world_frame (..., F, 4, 4) of the named frames.
 
     Args:
         robot: The robot.
-        q: Configurations (..., nq) [rad]. CuPy's arrays are answered where they live, for frames on legs of
-            six joints.
+        q: Configurations (..., nq) [rad], or a gait. CuPy's arrays are answered where they live, for
+            frames on legs of six joints.
         frames: Names of links, point frames or joints.
         base: T_world_pelvis (4, 4) or (..., 4, 4); the robot's own placement if left out.
 
@@ -45,7 +42,8 @@ def poses(
         UnknownNameError: A frame is unknown.
         DescriptionError: The shape of q or base does not fit, or a number is not finite.
     """
-    ids = _indices(robot, frames)
+    q, base = placed(robot, q, base)
+    ids = frame_indices(robot, frames)
     remote = is_remote(q)
     rows, shape = _remote_samples(robot, as_floats(q)) if remote else samples(robot, q)
     out = np.empty((len(rows), len(ids), 4, 4), like=rows)
@@ -62,13 +60,13 @@ def poses(
 
 
 def positions(
-    robot: Robot, q: npt.ArrayLike, frames: Sequence[str] = FEET, *, base: npt.ArrayLike | None = None
+    robot: Robot, q: Gait | npt.ArrayLike, frames: Sequence[str] = FEET, *, base: npt.ArrayLike | None = None
 ) -> Array:
     """Positions (..., F, 3) [m] of the named frames' origins in the world, a quarter of the poses' memory.
 
     Args:
         robot: The robot.
-        q: Configurations (..., nq) [rad].
+        q: Configurations (..., nq) [rad], or a gait.
         frames: Names of links, point frames or joints.
         base: T_world_pelvis as in `poses`.
 
@@ -76,8 +74,9 @@ def positions(
         UnknownNameError: A frame is unknown.
         DescriptionError: The shape of q or base does not fit.
     """
+    q, base = placed(robot, q, base)
     rows, shape = samples(robot, q)
-    out = np.empty((len(rows), len(_indices(robot, frames)), 3))
+    out = np.empty((len(rows), len(frame_indices(robot, frames)), 3))
     bases = None if base is None else checked_base(robot, base, shape)
 
     def of_chunk(part: slice) -> None:
@@ -111,100 +110,6 @@ def _remote_samples(robot: Robot, q: Array) -> tuple[Array, tuple[int, ...]]:
     return q.reshape(-1, robot.nq), shape
 
 
-def velocities(
-    robot: Robot,
-    q: npt.ArrayLike,
-    dq: npt.ArrayLike,
-    frames: Sequence[str] = FEET,
-    *,
-    base: npt.ArrayLike | None = None,
-) -> Array:
-    """Velocities (..., F, 6) [m/s, rad/s] of the named frames: linear, then angular, in world axes.
-
-    Args:
-        robot: The robot.
-        q: Configurations (..., nq) [rad].
-        dq: Joint velocities (..., nv) [rad/s].
-        frames: Names of links, point frames or joints.
-        base: T_world_pelvis as in `poses`, held still.
-
-    Raises:
-        UnknownNameError: A frame is unknown.
-        DescriptionError: The shape of q, dq or base does not fit, or a number is not finite.
-    """
-    rows, shape = samples(robot, q)
-    speeds = rates(robot, dq, shape, "dq")
-
-    def _row(data: Any, k: int, ids: list[int]) -> list[Array]:
-        pin.forwardKinematics(robot.model, data, rows[k], speeds[k])
-        return [pin.getFrameVelocity(robot.model, data, i, _AXES).vector for i in ids]
-
-    return _spatial(robot, len(rows), shape, frames, base, _row)
-
-
-def accelerations(
-    robot: Robot,
-    q: npt.ArrayLike,
-    dq: npt.ArrayLike,
-    ddq: npt.ArrayLike,
-    frames: Sequence[str] = FEET,
-    *,
-    base: npt.ArrayLike | None = None,
-) -> Array:
-    """Accelerations (..., F, 6) [m/s^2, rad/s^2]: of the frame's origin and angular, in world axes.
-
-    The linear part is the classical (material) one, the derivative of the origin's velocity; gravity is not
-    in it.
-
-    Args:
-        robot: The robot.
-        q: Configurations (..., nq) [rad].
-        dq: Joint velocities (..., nv) [rad/s].
-        ddq: Joint accelerations (..., nv) [rad/s^2].
-        frames: Names of links, point frames or joints.
-        base: T_world_pelvis as in `poses`, held still.
-
-    Raises:
-        UnknownNameError: A frame is unknown.
-        DescriptionError: The shape of q, dq, ddq or base does not fit, or a number is
-            not finite.
-    """
-    rows, shape = samples(robot, q)
-    speeds, changes = rates(robot, dq, shape, "dq"), rates(robot, ddq, shape, "ddq")
-
-    def _row(data: Any, k: int, ids: list[int]) -> list[Array]:
-        pin.forwardKinematics(robot.model, data, rows[k], speeds[k], changes[k])
-        return [pin.getFrameClassicalAcceleration(robot.model, data, i, _AXES).vector for i in ids]
-
-    return _spatial(robot, len(rows), shape, frames, base, _row)
-
-
-def jacobian(robot: Robot, q: npt.ArrayLike, frame: str, *, base: npt.ArrayLike | None = None) -> Array:
-    """Jacobian (..., 6, nv) of a frame: `jacobian @ dq` is its velocity as `velocities` gives it.
-
-    Args:
-        robot: The robot.
-        q: Configurations (..., nq) [rad].
-        frame: Name of a link, point frame or joint.
-        base: T_world_pelvis as in `poses`.
-
-    Raises:
-        UnknownNameError: The frame is unknown.
-        DescriptionError: The shape of q or base does not fit, or a number is not finite.
-    """
-    index = robot.frame(frame)
-    data = robot.model.createData()
-    rows, shape = samples(robot, q)
-    out = np.empty((len(rows), 6, robot.model.nv))
-    for k, row in enumerate(rows):
-        out[k] = pin.computeFrameJacobian(robot.model, data, row, index, _AXES)
-    out = out.reshape(*shape, 6, robot.model.nv)
-    if base is None:
-        return out
-    R = moved(robot, base, shape)[..., :3, :3]
-    return np.concatenate([R @ out[..., :3, :], R @ out[..., 3:, :]], axis=-2)
-
-
 def attitude(robot: Robot, q: npt.ArrayLike, frame: str, *, relative_to: str) -> Array:
     """Rotation (..., 3, 3) of one link, joint or frame seen from another: R_relative_frame.
 
@@ -235,21 +140,6 @@ def samples(robot: Robot, q: npt.ArrayLike) -> tuple[Array, tuple[int, ...]]:
     return rows if robot.base == "fixed" else robot.unit_quaternion(rows), shape
 
 
-def rates(robot: Robot, values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Array:
-    """Joint velocities or accelerations as rows (n, nv), checked against the samples.
-
-    Args:
-        robot: The robot.
-        values: (..., nv) [rad/s] or [rad/s^2].
-        shape: Shape (...) of the samples of q.
-        name: Name of the argument in messages.
-
-    Raises:
-        DescriptionError: The shape does not fit that of q, or a number is not finite.
-    """
-    return real(name, values, (*shape, robot.model.nv)).reshape(-1, robot.model.nv)
-
-
 def moved(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     """What carries the robot from its own placement to `base`: (..., 4, 4).
 
@@ -277,24 +167,6 @@ def checked_base(robot: Robot, base: npt.ArrayLike, shape: tuple[int, ...]) -> A
     return base
 
 
-def _indices(robot: Robot, frames: Sequence[str]) -> list[int]:
+def frame_indices(robot: Robot, frames: Sequence[str]) -> list[int]:
+    """Pinocchio's indices of frames by name; raises `UnknownNameError`."""
     return [robot.frame(name) for name in names("frames", frames)]
-
-
-def _spatial(
-    robot: Robot,
-    n: int,
-    shape: tuple[int, ...],
-    frames: Sequence[str],
-    base: npt.ArrayLike | None,
-    row: Callable[[Any, int, list[int]], list[Array]],
-) -> Array:
-    """Spatial vectors (..., F, 6) sample by sample, turned with the base."""
-    ids = _indices(robot, frames)
-    data = robot.model.createData()
-    out = np.array([row(data, k, ids) for k in range(n)]).reshape(*shape, len(ids), 6)
-    if base is None:
-        return out
-    R = moved(robot, base, shape)[..., None, :3, :3]
-    turned = R @ out.reshape(*shape, len(ids), 2, 3).swapaxes(-1, -2)
-    return np.asarray(turned.swapaxes(-1, -2).reshape(out.shape))

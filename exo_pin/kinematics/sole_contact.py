@@ -22,6 +22,7 @@ from exo_pin.gait.walking_bouts import walking_events
 from exo_pin.kinematics.motion import poses, positions
 from exo_pin.kinematics.sole_points import heels_and_balls
 from exo_pin.robot import Robot
+from exo_pin.short_repr import short_repr
 
 TOUCH_HEIGHT = 0.01
 """A corner this close to the ground touches [m]: soft soles and averaged gaits leave a centimetre."""
@@ -53,10 +54,13 @@ class Contacts(NamedTuple):
     touching: Mask
     feet: Mask
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 def contacts(
     robot: Robot,
-    q: npt.ArrayLike,
+    q: Gait | npt.ArrayLike,
     *,
     base: npt.ArrayLike | None = None,
     ground: float = 0.0,
@@ -66,7 +70,7 @@ def contacts(
 
     Args:
         robot: The robot.
-        q: Configurations (..., nq) [rad].
+        q: Configurations (..., nq) [rad], or a gait.
         base: T_world_pelvis as in `exo_pin.kinematics.poses`.
         ground: Height of the ground [m].
         tolerance: Corners up to this height touch [m].

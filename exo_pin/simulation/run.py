@@ -9,6 +9,7 @@ from typing import Any
 
 from exo_pin.anatomy import FEET
 from exo_pin.anatomy.names import Side
+from exo_pin.html_summary import table
 from exo_pin.simulation.energy import balance
 from exo_pin.simulation.side_numbers import SideNumbers, by_side
 from exo_pin.simulation.simulated_walk import SimulatedWalk
@@ -47,6 +48,20 @@ class Run(SimulatedWalk):
     def witness(self) -> float:
         """Difference of MuJoCo's accelerations from Pinocchio's of the same forces, relative."""
         return witness(self.robot, self.record, self.floor, self.timestep)
+
+    def _repr_html_(self) -> str:
+        """Verdict and main numbers, for notebooks."""
+        return table(
+            {
+                "verdict": self.verdict.word,
+                "why": self.verdict.why,
+                "controller": self.controller,
+                "patient": "nobody" if self.patient is None else self.patient.name,
+                "tracking rms [deg]": self.numbers.tracking_rms_deg,
+                "vertical force, mean [weight]": self.numbers.vertical_force_mean_bw,
+                "motor share": self.numbers.motor_share,
+            }
+        )
 
     def facts(self) -> dict[str, Any]:
         """Plain values for JSON; null where a run has no such number."""

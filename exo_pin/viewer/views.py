@@ -11,9 +11,10 @@ from typing import Any
 from exo_pin.anatomy import FEET
 from exo_pin.anatomy.names import SupportStyle
 from exo_pin.arguments import count
-from exo_pin.gait import Gait, Torques
+from exo_pin.errors import DescriptionError
+from exo_pin.gait import Gait, Torques, normative_gait
 from exo_pin.retarget import Retargeted, retarget
-from exo_pin.robot import Robot
+from exo_pin.robot import Robot, load_robot
 from exo_pin.short_repr import short_repr
 from exo_pin.viewer.page.packing import html
 from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
@@ -141,18 +142,23 @@ class View:
         )
 
 
-def view(robot: Robot, gait: Gait, *, height: int = 640, **options: Any) -> View:
+def view(robot: Robot | Gait, gait: Gait | None = None, *, height: int = 640, **options: Any) -> View:
     """Look at a walk in a notebook.
 
     Args:
-        robot: The exoskeleton, or any robot with two legs from `load_urdf`.
-        gait: The walk.
+        robot: The exoskeleton, or any robot with two legs from `load_urdf`; a gait alone walks on the
+            exoskeleton of the average body.
+        gait: The walk; the normal one if left out.
         height: Of the frame [px].
         **options: Further options of `viewer.scene`, e.g. `reference=` or `torques=`.
 
     Raises:
-        DescriptionError: The height is no whole number of pixels from 1 to 100 000, or as in `scene`.
+        DescriptionError: The height is no whole number of pixels from 1 to 100 000, or two gaits are given.
         ExoPinError: As in `scene`.
     """
     height = count("height", height, 1, _TALLEST)
-    return View(html(scene(robot, gait, **options)), height)
+    if isinstance(robot, Gait):
+        if gait is not None:
+            raise DescriptionError("view takes one gait, or a robot and a gait")
+        return View(html(scene(load_robot(), robot, **options)), height)
+    return View(html(scene(robot, normative_gait() if gait is None else gait, **options)), height)

@@ -1,0 +1,86 @@
+"""A walk as a table of pandas or an array of xarray, and back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from exo_pin.anatomy import JOINTS
+from exo_pin.errors import GaitError
+from exo_pin.gait.event import Event
+from exo_pin.gait.quaternions import quaternions, rotations
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from xarray import DataArray
+
+    from exo_pin.gait.gait import Gait
+
+PELVIS_COLUMNS = ("pelvis_x", "pelvis_y", "pelvis_z", "pelvis_qw", "pelvis_qx", "pelvis_qy", "pelvis_qz")
+"""Columns of the pelvis: where it is [m], its attitude as a unit quaternion."""
+
+
+def to_pandas(gait: Gait) -> DataFrame:
+    """A column of angles for each joint [rad], with the pelvis if it moves; the index is time [s].
+
+    What is no column stands in `attrs`: `periodic`, `source`, `events` as (side, kind, time).
+
+    Args:
+        gait: The walk.
+    """
+    from pandas import DataFrame, Index
+
+    columns = dict(zip(JOINTS, gait.q.T, strict=True))
+    if gait.base is not None:
+        pelvis = np.hstack([gait.base[:, :3, 3], quaternions(gait.base[:, :3, :3])])
+        columns |= dict(zip(PELVIS_COLUMNS, pelvis.T, strict=True))
+    frame = DataFrame(columns, index=Index(gait.time, name="time"))
+    frame.attrs |= {
+        "periodic": gait.periodic,
+        "source": gait.source,
+        "events": [(event.side, event.kind, event.time) for event in gait.events],
+    }
+    return frame
+
+
+def columns_of(frame: DataFrame) -> dict[str, Any]:
+    """The arguments of a `Gait` from a table as `to_pandas` makes it.
+
+    Args:
+        frame: With the joints of `JOINTS`, time as its index; pelvis and `attrs` as they are there.
+
+    Raises:
+        GaitError: A joint, or some of the pelvis's columns are missing.
+    """
+    pelvis = [name for name in PELVIS_COLUMNS if name in frame.columns]
+    wanted = (*JOINTS, *(PELVIS_COLUMNS if pelvis else ()))
+    missing = [name for name in wanted if name not in frame.columns]
+    if missing:
+        raise GaitError(f"the table has no column {', '.join(missing)}; those of Gait.to_pandas are accepted")
+    base = None
+    if pelvis:
+        numbers = frame[list(PELVIS_COLUMNS)].to_numpy(dtype=float)
+        base = np.tile(np.eye(4), (len(frame), 1, 1))
+        base[:, :3, 3], base[:, :3, :3] = numbers[:, :3], rotations(numbers[:, 3:])
+    return {
+        "time": frame.index.to_numpy(dtype=float),
+        "q": frame[list(JOINTS)].to_numpy(dtype=float),
+        "base": base,
+        "events": tuple(Event(time, kind, side) for side, kind, time in frame.attrs.get("events", ())),
+        "periodic": bool(frame.attrs.get("periodic", False)),
+        "source": str(frame.attrs.get("source", "")),
+    }
+
+
+def to_xarray(gait: Gait) -> DataArray:
+    """Angles [rad] with the dimensions time [s] and joint; `attrs` as in `to_pandas`, with the unit.
+
+    Args:
+        gait: The walk.
+    """
+    from xarray import DataArray
+
+    attrs = {"units": "rad", "periodic": gait.periodic, "source": gait.source}
+    coordinates = {"time": gait.time, "joint": list(JOINTS)}
+    return DataArray(gait.q, dims=("time", "joint"), coords=coordinates, name="angle", attrs=attrs)
