@@ -76,6 +76,8 @@ HEAVY = {
     "meshcat",
     "yourdfpy",
     "matplotlib",
+    "pandas",
+    "xarray",
     "scipy",
     "ezc3d",
     "c3d",

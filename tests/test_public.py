@@ -20,7 +20,7 @@ DISTRIBUTION = {  # name of an import -> name of what is installed, where the tw
 }
 DATA = {"example-robot-data", "meshcat"}
 """Read as files, never imported: robots' descriptions, the player's JavaScript."""
-OPTIONAL = {"opensim"}
+OPTIONAL = {"pandas", "xarray", "matplotlib", "opensim"}
 """Of extras: the witness is left out where they are not installed."""
 HEAVY = ("pinocchio", "meshcat", "yourdfpy", "scipy", "matplotlib", "numpy", "tornado")
 

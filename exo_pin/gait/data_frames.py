@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from exo_pin.anatomy import JOINTS
+from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait.event import Event
 from exo_pin.gait.quaternions import quaternions, rotations
@@ -15,37 +17,32 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import DataArray
 
-    from exo_pin.gait.gait import Gait
-
 PELVIS_COLUMNS = ("pelvis_x", "pelvis_y", "pelvis_z", "pelvis_qw", "pelvis_qx", "pelvis_qy", "pelvis_qz")
 """Columns of the pelvis: where it is [m], its attitude as a unit quaternion."""
 
 
-def to_pandas(gait: Gait) -> DataFrame:
+def frame_of(time: Array, q: Array, base: Array | None, attrs: Mapping[str, Any]) -> DataFrame:
     """A column of angles for each joint [rad], with the pelvis if it moves; the index is time [s].
 
-    What is no column stands in `attrs`: `periodic`, `source`, `events` as (side, kind, time).
-
     Args:
-        gait: The walk.
+        time: `(n,)` [s].
+        q: `(n, 12)` in the order of `JOINTS` [rad].
+        base: `(n, 4, 4)` pose of the pelvis, if it moves [m].
+        attrs: What is no column: `periodic`, `source`, `events` as (side, kind, time).
     """
     from pandas import DataFrame, Index
 
-    columns = dict(zip(JOINTS, gait.q.T, strict=True))
-    if gait.base is not None:
-        pelvis = np.hstack([gait.base[:, :3, 3], quaternions(gait.base[:, :3, :3])])
+    columns = dict(zip(JOINTS, q.T, strict=True))
+    if base is not None:
+        pelvis = np.hstack([base[:, :3, 3], quaternions(base[:, :3, :3])])
         columns |= dict(zip(PELVIS_COLUMNS, pelvis.T, strict=True))
-    frame = DataFrame(columns, index=Index(gait.time, name="time"))
-    frame.attrs |= {
-        "periodic": gait.periodic,
-        "source": gait.source,
-        "events": [(event.side, event.kind, event.time) for event in gait.events],
-    }
+    frame = DataFrame(columns, index=Index(time, name="time"))
+    frame.attrs |= dict(attrs)
     return frame
 
 
 def columns_of(frame: DataFrame) -> dict[str, Any]:
-    """The arguments of a `Gait` from a table as `to_pandas` makes it.
+    """The arguments of a `Gait` from a table as `Gait.to_pandas` makes it.
 
     Args:
         frame: With the joints of `JOINTS`, time as its index; pelvis and `attrs` as they are there.
@@ -73,14 +70,17 @@ def columns_of(frame: DataFrame) -> dict[str, Any]:
     }
 
 
-def to_xarray(gait: Gait) -> DataArray:
-    """Angles [rad] with the dimensions time [s] and joint; `attrs` as in `to_pandas`, with the unit.
+def array_of(time: Array, q: Array, attrs: Mapping[str, Any]) -> DataArray:
+    """Angles [rad] with the dimensions time [s] and joint.
 
     Args:
-        gait: The walk.
+        time: `(n,)` [s].
+        q: `(n, 12)` in the order of `JOINTS` [rad].
+        attrs: Further facts; the unit is added.
     """
     from xarray import DataArray
 
-    attrs = {"units": "rad", "periodic": gait.periodic, "source": gait.source}
-    coordinates = {"time": gait.time, "joint": list(JOINTS)}
-    return DataArray(gait.q, dims=("time", "joint"), coords=coordinates, name="angle", attrs=attrs)
+    coordinates = {"time": time, "joint": list(JOINTS)}
+    return DataArray(
+        q, dims=("time", "joint"), coords=coordinates, name="angle", attrs={"units": "rad", **attrs}
+    )

@@ -144,16 +144,21 @@ class Gait:
         return read_only(np.hstack([linear, angular]))
 
     def to_pandas(self) -> DataFrame:
-        """A pandas `DataFrame`, see `exo_pin.gait.data_frames.to_pandas`; needs the extra `tables`."""
-        from exo_pin.gait.data_frames import to_pandas
+        """A pandas `DataFrame`: a column for each joint [rad] and of a moving pelvis, time as index [s].
 
-        return to_pandas(self)
+        Periodic, source and events are in its `attrs`. Needs the extra `tables`.
+        """
+        from exo_pin.gait.data_frames import frame_of
+
+        events = [(event.side, event.kind, event.time) for event in self.events]
+        attrs = {"periodic": self.periodic, "source": self.source, "events": events}
+        return frame_of(self.time, self.q, self.base, attrs)
 
     def to_xarray(self) -> DataArray:
-        """An xarray `DataArray` with the dimensions time and joint; needs the extra `tables`."""
-        from exo_pin.gait.data_frames import to_xarray
+        """An xarray `DataArray` [rad] with the dimensions time and joint; needs the extra `tables`."""
+        from exo_pin.gait.data_frames import array_of
 
-        return to_xarray(self)
+        return array_of(self.time, self.q, {"periodic": self.periodic, "source": self.source})
 
     @classmethod
     def from_pandas(cls, frame: DataFrame) -> Gait:
