@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from exo_pin.cli import shot_options, show, shown_walk
+from exo_pin.errors import DescriptionError
 from exo_pin.files import write_bytes
 
 _EXAMPLES = """examples:
@@ -26,8 +27,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Show frame by frame and write the film."""
     from exo_pin.viewer.film import shots
+    from exo_pin.viewer.film.encode import FILMS
 
     size = shot_options.pixels(args.size)
+    if Path(args.output).suffix.lower() not in FILMS:
+        raise DescriptionError(f"{args.output}: a film ends in {', '.join(FILMS)}")
     scene = shown_walk.scene(args, *shown_walk.read(args))
     data = shots.film(
         scene,

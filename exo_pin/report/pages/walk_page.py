@@ -99,13 +99,14 @@ def walk(
     gait, forward = _ahead(gait)
     band = published_band(normal) if isinstance(normal, str) else normal
     read = plausibility or kinematics.plausibility(robot, gait)
-    found = kinematics.walk_numbers(robot, gait, feet)
-    sides = _sides(robot, gait, feet) if clinical_sides is None else clinical_sides
-    profile = None if band is None else gait_profile(sides, band)
     person, device = (gait, None) if answer is None else _person_and_device(answer, gait)
+    legs = robot if set(JOINTS) <= set(robot.joints) else load_robot(robot.body)
+    found = kinematics.walk_numbers(legs, person, feet)
+    sides = clinical_cycles(legs, person, feet=feet) if clinical_sides is None else clinical_sides
+    profile = None if band is None else gait_profile(sides, band)
     facts = ({"person": info.who} if info.who else {}) | dict(info.session)
     sections = [
-        first_sheet.who_and_what(robot, gait, facts, answer, read),
+        first_sheet.who_and_what(legs, _ahead(person)[0], facts, answer, read),
         first_sheet.numbers(found, profile),
         curves(robot, person, band, device),
         *([_played(player, info.title, still)] if player else []),
@@ -121,13 +122,6 @@ def walk(
     foot = ", ".join(filter(None, (facts.get("person", ""), info.what, info.when)))
     subtitle = "; ".join([*under, *([info.when] if info.when else [])])
     return Document(info.title, subtitle, tuple(sections), foot or info.title)
-
-
-def _sides(robot: Robot, gait: Gait, feet: FootMarkers | None) -> tuple[ClinicalCycles, ...]:
-    """The cycles of the walk; on the person's own legs where the device lacks joints."""
-    if not set(JOINTS) <= set(robot.joints):
-        robot = load_robot(robot.body)
-    return clinical_cycles(robot, gait, feet=feet)
 
 
 def _person_and_device(answer: DeviceWalk, shown: Gait) -> tuple[Gait, Gait | None]:

@@ -25,8 +25,8 @@ def who_and_what(
     """Person, recording, body and device beside a picture, and the verdict in words.
 
     Args:
-        robot: The device on a body.
-        gait: The walk.
+        robot: The exoskeleton on the person's body.
+        gait: The person's walk.
         facts: Who was recorded, where, when, and the body in words, as far as they are known.
         answer: The device's answer to the walk; None: no device was asked.
         read: The verdict on the walk as it was read.
