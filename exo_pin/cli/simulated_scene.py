@@ -16,6 +16,10 @@ _RIGID = (
 )
 
 
+_LONG = 6.0
+"""A longer run is shown with half the samples a second, so that its page stays small [s]."""
+
+
 def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
     """The run with its forces beside a ghost; beside a second run the walk to follow is dashed.
 
@@ -30,11 +34,12 @@ def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
     from exo_pin import simulation, viewer
     from exo_pin.simulation.run_gaits import RATE
 
-    walk, plan = simulation.walked(run), simulation.wanted(run)
+    rate = RATE if run.time[-1] <= _LONG else RATE / 2
+    walk, plan = simulation.walked(run, rate=rate), simulation.wanted(run, rate=rate)
     options = viewer.SceneOptions(
         title=f"{what}, simulated: {run.verdict.word} - exo_pin",
         support="still",  # the simulated pelvis is shown where it was
-        compare=plan if other is None else simulation.walked(other),
+        compare=plan if other is None else simulation.walked(other, rate=rate),
         compare_title="the walk to follow" if other is None else f"{_name(other)}: {other.verdict.word}",
         beside=other is not None,
         notes=(*_notes(run), *(() if other is None else _notes(other)), _RIGID),
@@ -45,7 +50,7 @@ def scene(run: Run, what: str, *, other: Run | None = None) -> Scene:
         options,
         reference=None if other is None else plan,  # else the ghost's curves are the same
         reference_title="the walk to follow",
-        kinetics=viewer.Kinetics.of_run(run, RATE),
+        kinetics=viewer.Kinetics.of_run(run, rate),
     )
 
 
