@@ -59,7 +59,7 @@ if TYPE_CHECKING:  # the same names again, for type checkers and editors
     from exo_pin.robot import Robot as Robot
     from exo_pin.robot import load_robot as load_robot
     from exo_pin.robot import load_urdf as load_urdf
-    from exo_pin.simulation import simulate as simulate
+    from exo_pin.simulation.simulate import simulate as simulate
     from exo_pin.viewer import view as view
     from exo_pin.walking import plan_walk as plan_walk
 

@@ -33,8 +33,8 @@ def test_the_sentences_under_the_table_hold_in_it():
     rows = {(c, p): (verdict, [float(x) for x in rms.split("/")]) for c, p, verdict, rms, *_ in TABLE}
     assert rows["pd", "plegic"][0] == "walks"
     assert rows["impedance", "plegic"][0] == "falls"
-    assert [rows["computed_torque", p][0] == "walks" for p in PATIENTS] == [True, False, False]
-    assert 2.5 < sum(rows["computed_torque", "healthy"][1]) / 2 < 3.1
+    assert [rows["computed_torque", p][0] == "walks" for p in PATIENTS] == [True, True, False]
+    assert 2.2 < sum(rows["computed_torque", "healthy"][1]) / 2 < 2.8
     assert rows["assist_as_needed", "plegic"][0] == "walks"
     assert rows["assist_as_needed", "plegic"][1][0] > rows["pd", "plegic"][1][0]
 
