@@ -22,6 +22,8 @@ from exo_pin.devices import Device
 from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.safe import plain_numbers
 
+__all__ = ["MAIN", "XACRO", "arguments", "arguments_xacro", "expand", "sources", "urdf"]
+
 MAIN = "exo12.urdf.xacro"
 """The xacro that includes the others."""
 XACRO = "http://www.ros.org/wiki/xacro"

@@ -14,6 +14,21 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.short_repr import short_repr
 
+__all__ = [
+    "CUTOFF",
+    "EVEN_GRID",
+    "GAP",
+    "ORDER",
+    "ROUNDED_TIME",
+    "Filled",
+    "Outlier",
+    "filled",
+    "longest_run",
+    "lowpass",
+    "outliers",
+    "spikes",
+]
+
 CUTOFF = 6.0
 """Usual in gait laboratories [Hz]."""
 

@@ -87,6 +87,7 @@ HipRegression = Literal["davis", "harrington"]
 """How hip centres follow from the pelvis's markers: Davis 1991 or Harrington 2007."""
 
 SIDES: tuple[Side, ...] = ("left", "right")
+"""Both sides, in the order of every array that holds one entry a leg."""
 
 MOVEMENTS: tuple[Movement, ...] = (
     "hip_flexion",
@@ -119,6 +120,7 @@ HIP_ORDERS: dict[HipOrder, tuple[Movement, Movement, Movement]] = {
     "clinical": ("hip_flexion", "hip_adduction", "hip_rotation"),
     "yaw_roll_pitch": ("hip_rotation", "hip_adduction", "hip_flexion"),
 }
+"""The hip's joints from the pelvis outwards, in each order of the hip."""
 
 
 def joint(side: Side, movement: Movement) -> str:

@@ -34,6 +34,7 @@ EXO12 = Device(
     "70 kg person's level walking at any of Schwartz's (2008) speeds needs; the paper gives none.",
     remarks=("The same arrangement as ATALANTE, 12 actuated joints (Gurriet 2018).",),
 )
+"""The exoskeleton of the paper: the device where none is named."""
 
 LOKOMAT = Device(
     name="lokomat",

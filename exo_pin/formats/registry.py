@@ -21,6 +21,7 @@ from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
 
 Content = Literal["angles", "markers", "torques", "forces"]
+"""What a file of a format may hold."""
 
 
 class Format(NamedTuple):

@@ -82,7 +82,7 @@ def spatiotemporal(
     Returns:
         `cadence`, `speed`, `stride_time`, `stride_length`, `step_width`, `double_support` (of a run:
         `flight`), and by side, as `left_stance`: `step_length`, `step_time`, `stance`, `swing`;
-        `step_length_symmetry` and the like are 2 |L - R| / (L + R) in per cent (Robinson 1987), 0 for equal
+        `step_length_symmetry` and the like are `2 |L - R| / (L + R)` in per cent (Robinson 1987), 0 for equal
         sides, of the means, with the standard deviation of the single cycles' index. What is unknown is left
         out.
 
