@@ -39,7 +39,7 @@ def test_the_sentences_under_the_table_hold_in_it():
     assert rows["assist_as_needed", "plegic"][1][0] > rows["pd", "plegic"][1][0]
 
 
-@pytest.mark.parametrize(("controller", "patient"), [("pd", "plegic"), ("computed_torque", "healthy")])
+@pytest.mark.parametrize(("controller", "patient"), [("pd", "plegic"), ("impedance", "healthy")])
 def test_the_table_s_numbers_come_out_again(controller, patient):
     """Of two cycles the second is like the second to tenth, within the spread of cycles."""
     run = simulate(
