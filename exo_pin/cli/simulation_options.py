@@ -38,7 +38,8 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--controller",
         default="pd",
         metavar="NAME|FILE.py:CLASS",
-        help="of the motors: pd (default), pd_only, pd_gravity, computed_torque, impedance, impedance_ff, "
+        help="of the motors: pd (default), pd_free, pd_stabilised, pd_only, pd_gravity, computed_torque, impedance, "
+        "impedance_ff, "
         "assist_as_needed, off, one of your own, several with commas, or all. A file is run as it is, with "
         "all your rights: run only what you trust",
     )

@@ -105,6 +105,14 @@ def _numbers(run: Run) -> list[list[str]]:
         "witness, relative": f"{run.witness:.1e}",
         "real-time factor": _number(speed, 1),
     }
+    if run.support.free:
+        free = run.free_numbers
+        rows |= {
+            "pelvis off its path, largest": f"{free.pelvis_off_path_max_mm:.0f} mm",
+            "slip of a sole, largest": f"{free.slip_max_mm:.1f} mm",
+            "ZMP of the walk inside its soles": f"{_number(free.zmp_margin_min_mm, 0)} mm; "
+            f"outside {free.zmp_outside_percent:.0f} % of the time",
+        }
     return [[name, value] for name, value in rows.items()]
 
 

@@ -13,6 +13,7 @@ from exo_pin.control.assist_as_needed import AssistAsNeeded
 from exo_pin.control.controller import Controller, Reference
 from exo_pin.control.controller_file import load_controller
 from exo_pin.control.servo import SOFT_DAMPING, SOFT_STIFFNESS, ComputedTorque, GravityServo, Servo
+from exo_pin.control.stabiliser import FreeServo, Stabiliser
 from exo_pin.errors import known_name
 
 
@@ -27,6 +28,8 @@ class Off:
 CONTROLLERS: Mapping[str, Callable[[], Controller]] = MappingProxyType(
     {
         "pd": Servo,
+        "pd_free": FreeServo,
+        "pd_stabilised": Stabiliser,
         "pd_only": lambda: Servo(feed_forward=False),
         "pd_gravity": GravityServo,
         "computed_torque": ComputedTorque,
@@ -36,7 +39,8 @@ CONTROLLERS: Mapping[str, Callable[[], Controller]] = MappingProxyType(
         "off": Off,
     }
 )
-"""Name -> a new controller: a stiff servo plus what the person does not give, the servo alone, the servo plus
+"""Name -> a new controller: a stiff servo plus what the person does not give, the same with the ankles of a
+free pelvis, with a stabiliser of its balance, the servo alone, the servo plus
 the weight of the legs, computed torque, soft without and with feed-forward, assistance as needed, none."""
 
 

@@ -2,6 +2,7 @@
 
 from exo_pin.dynamics.base_motion import Motion, in_pelvis_axes, motion
 from exo_pin.dynamics.floating_robot import floating_robot, mass_of
+from exo_pin.dynamics.free_reaction import FREE_CUTOFF
 from exo_pin.dynamics.ground_forces import GroundForces
 from exo_pin.dynamics.inverse import torques
 from exo_pin.dynamics.newton_euler import generalized_forces, in_world_axes
@@ -12,6 +13,7 @@ from exo_pin.signals import CUTOFF
 
 __all__ = [
     "CUTOFF",
+    "FREE_CUTOFF",
     "Dynamics",
     "GroundForces",
     "Motion",

@@ -20,6 +20,10 @@ from exo_pin.ground import Intervals
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
 
+FREE_CUTOFF = 20.0
+"""Low-pass of such a walk [Hz]: a plan's accelerations at its steps are part of its balance; the usual one of
+recordings would take them off."""
+
 _ENDS = 1e-9
 """A double support that begins or ends this close [s] to an end of the walk is cut off by it."""
 

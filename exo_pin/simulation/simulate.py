@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from exo_pin import arguments
 from exo_pin.control import Controller, Patient, find_controller, find_patient, reset
-from exo_pin.dynamics import CUTOFF, mass_of, torques
+from exo_pin.dynamics import CUTOFF, FREE_CUTOFF, mass_of, torques
 from exo_pin.errors import DescriptionError
 from exo_pin.gait import Gait
 from exo_pin.physics import GRAVITY
@@ -22,10 +22,6 @@ from exo_pin.simulation.plant import Joints, Plant
 from exo_pin.simulation.push import Push, pushed
 from exo_pin.simulation.reference_motion import reference_motion
 from exo_pin.simulation.run import Run
-
-_FREE_CUTOFF = 20.0
-"""Of the walk of a free pelvis [Hz]: a plan's accelerations at its steps are part of its balance; the usual
-low-pass of recordings would take them off."""
 
 _MOST_SUPPORT = 0.95
 """Part of the weight: with all of it nothing would press the soles to the floor."""
@@ -85,7 +81,7 @@ def simulate(
         robot,
         gait,
         body_weight_support=body_weight_support,
-        cutoff=_FREE_CUTOFF if held.free else CUTOFF,
+        cutoff=FREE_CUTOFF if held.free else CUTOFF,
         free=held.free,
     )
     walk = reference_motion(gait, required, cycles=cycles, timestep=timestep)
@@ -113,6 +109,7 @@ def simulate(
     return Run(
         gait=gait,
         robot=machine,
+        required=required,
         reference=walk,
         record=record,
         controller=name,

@@ -11,6 +11,7 @@ from exo_pin import arguments
 from exo_pin.anatomy import JOINTS
 from exo_pin.arrays import Array
 from exo_pin.control import Patient
+from exo_pin.dynamics import Dynamics
 from exo_pin.gait import Gait
 from exo_pin.robot import Robot
 from exo_pin.robot.gait_columns import in_joint_order
@@ -30,6 +31,7 @@ class SimulatedWalk:
     Attributes:
         gait: The walk that was to be followed, as given.
         robot: The floating robot that was simulated, with the errors of its model.
+        required: Its inverse dynamics, by the model.
         reference: The walk at the steps of the run.
         record: What was written down at every step.
         controller: Name of the controller.
@@ -46,6 +48,7 @@ class SimulatedWalk:
 
     gait: Gait
     robot: Robot
+    required: Dynamics
     reference: ReferenceMotion
     record: Recording
     controller: str
