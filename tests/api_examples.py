@@ -392,6 +392,7 @@ _OWN: Mapping[str, Any] = {
     "simulation.Plant.mass_error": lambda e: 0.1,
     "simulation.Plant.length_error": lambda e: 0.1,
     "simulation.Plant.floor_friction": lambda e: 0.8,
+    "simulation.Plant.floor_time_constant": lambda e: 0.01,
     "simulation.Plant.joint_friction": lambda e: 1.0,
     "simulation.Plant.joint_damping": lambda e: 1.0,
     "simulation.Plant.encoder_step": lambda e: 1e-3,

@@ -19,6 +19,7 @@ _PLANT = {
     "mass_error": ("PART", "the machine is heavier than its model by this part, e.g. 0.1"),
     "length_error": ("PART", "its links are longer by this part"),
     "floor_friction": ("MU", "Coulomb coefficient of the floor (default: 0.8)"),
+    "floor_time_constant": ("S", "of the floor's contact (MuJoCo's solref; default: 0.01)"),
     "joint_friction": ("NM", "Coulomb friction of each joint [N m]"),
     "joint_damping": ("NMS", "viscous friction of each joint [N m s/rad]"),
     "encoder_step": ("RAD", "resolution of the measured angles [rad]"),
@@ -38,10 +39,9 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--controller",
         default="pd",
         metavar="NAME|FILE.py:CLASS",
-        help="of the motors: pd (default), pd_free, pd_stabilised, pd_only, pd_gravity, computed_torque, impedance, "
-        "impedance_ff, "
-        "assist_as_needed, off, one of your own, several with commas, or all. A file is run as it is, with "
-        "all your rights: run only what you trust",
+        help="of the motors: pd (default), pd_free, pd_stabilised, pd_only, pd_gravity, computed_torque, "
+        "impedance, impedance_ff, assist_as_needed, off, one of your own, several with commas, or all. A "
+        "file is run as it is, with all your rights: run only what you trust",
     )
     parser.add_argument(
         "--patient",
@@ -63,6 +63,13 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--timestep", type=measures.number, default=1e-3, metavar="S", help="[s] (default: 0.001)"
     )
+    add_push(parser)
+    parser.add_argument("--seed", type=int, default=0, help="of the encoders' noise (default: 0)")
+    _add_machine(parser)
+
+
+def add_push(parser: argparse.ArgumentParser) -> None:
+    """Pushes at the pelvis."""
     parser.add_argument(
         "--push",
         action="append",
@@ -71,8 +78,6 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="at the pelvis: force forward, force to the left [N], duration, start [s], e.g. 60,0,0.1@3.2; "
         "may be given again",
     )
-    parser.add_argument("--seed", type=int, default=0, help="of the encoders' noise (default: 0)")
-    _add_machine(parser)
 
 
 def _add_machine(parser: argparse.ArgumentParser) -> None:
@@ -110,9 +115,18 @@ def conditions(args: argparse.Namespace) -> dict[str, Any]:
         "cycles": 10 if args.cycles is None else args.cycles,
         "timestep": args.timestep,
         "plant": plant(args),
-        "pushes": tuple(_push(text) for text in args.push),
+        "pushes": pushes(args),
         "seed": args.seed,
     }
+
+
+def pushes(args: argparse.Namespace) -> tuple[Push, ...]:
+    """The pushes of the command line.
+
+    Raises:
+        DescriptionError: One is not written as it should be, or a number is not within its range.
+    """
+    return tuple(_push(text) for text in args.push)
 
 
 def _push(text: str) -> Push:

@@ -21,6 +21,12 @@ from exo_pin.walking import convex_hull, margin
 _LOADED = 20.0
 """A foot stands from this vertical force on [N]."""
 
+_BEFORE_END = 1e-6
+"""The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
+
+_MICROMETRES = 6
+"""Decimals of the soles' corners [m]: corners on one line are so to rounding, for the hull."""
+
 
 @dataclass(frozen=True)
 class FreeNumbers:
@@ -64,9 +70,9 @@ def zmp_margins(gait: Gait, required: Dynamics) -> Array:
     zmp = zero_moment_point(required.motion.base, needed)
     corners = poses(required.robot, required.motion.q, CORNERS)[..., :3, 3]
     stance = stance_from_events(gait) or estimated_stance(gait, lowest_corners(corners))
-    time = gait.time - gait.time[0]
+    time = np.minimum(gait.time - gait.time[0], gait.duration - _BEFORE_END)
     stands = np.stack([standing(stance, side, time) for side in SIDES], axis=1)
-    soles = corners[..., :2].reshape(len(gait), len(FEET), -1, 2)
+    soles = np.round(corners[..., :2].reshape(len(gait), len(FEET), -1, 2), _MICROMETRES)
     return np.array(
         [
             margin(convex_hull(sole[feet].reshape(-1, 2)), at[None])[0]

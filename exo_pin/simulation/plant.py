@@ -20,6 +20,7 @@ class Plant:
         mass_error: The machine is heavier than the model by this part.
         length_error: It is longer by this part.
         floor_friction: Coulomb coefficient of the floor.
+        floor_time_constant: Of the floor's spring and damper (MuJoCo's solref) [s].
         joint_friction: Coulomb friction of each joint [N m].
         joint_damping: Viscous friction of each joint [N m s/rad].
         encoder_step: Resolution of the measured angles [rad]; 0: exact.
@@ -35,6 +36,7 @@ class Plant:
     mass_error: float = field(default=0.0, metadata={"range": (-0.5, 1.0)})
     length_error: float = field(default=0.0, metadata={"range": (-0.2, 0.2)})
     floor_friction: float = field(default=0.8, metadata={"range": (0.0, 2.0)})
+    floor_time_constant: float = field(default=0.01, metadata={"range": (0.002, 0.1)})
     joint_friction: float = field(default=0.0, metadata={"range": (0.0, 100.0)})
     joint_damping: float = field(default=0.0, metadata={"range": (0.0, 100.0)})
     encoder_step: float = field(default=0.0, metadata={"range": (0.0, 0.1)})

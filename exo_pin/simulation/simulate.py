@@ -87,7 +87,9 @@ def simulate(
     walk = reference_motion(gait, required, cycles=cycles, timestep=timestep)
     model = required.robot
     machine = with_errors(model, mass=plant.mass_error, length=plant.length_error)
-    engine = sensing_model(machine, floor=Floor(friction=plant.floor_friction), timestep=timestep)
+    engine = sensing_model(
+        machine, floor=Floor(plant.floor_friction, plant.floor_time_constant), timestep=timestep
+    )
     reset(drive, model, gait)
     effort, speed = (in_joint_order(machine.joints, x) for x in (machine.effort, machine.velocity))
     every = 1 if plant.rate is None else max(round(1.0 / (plant.rate * timestep)), 1)

@@ -109,7 +109,7 @@ def verdict(run: SimulatedWalk, found: Numbers) -> Verdict:
     most = max(found.saturated.items(), key=lambda pair: pair[1], default=("", 0.0))
     reasons = []
     if contact[1] > _SWING_CONTACT:
-        reasons.append(f"the {contact[0]} foot scuffs in {contact[1]:.0f} % of its swing")
+        reasons.append(f"the {contact[0]} foot scuffs in {contact[1]:.1f} % of its swing")
     if found.vertical_force_mean_bw < _CARRIED * wanted:
         reasons.append(f"the legs carry {found.vertical_force_mean_bw:.2f} of {wanted:.2f} weights")
     if found.tracking_max_deg > _TRACKING:

@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from exo_pin.control import Reference, find_controller, reset
+from exo_pin.control import Reference
+from exo_pin.control.stabiliser import Stabiliser
 from exo_pin.dynamics import generalized_forces, torques
 from exo_pin.gait import normative_gait
 from exo_pin.robot import load_robot
@@ -64,8 +65,7 @@ def test_the_stabiliser_takes_a_push_and_comes_back_to_the_path(exo, plan):
     run = simulate(exo, plan.gait, "pd_stabilised", support="none", pushes=[push])
     assert run.stands, run.verdict.why
     off = np.linalg.norm((run.base - run.reference.base)[:, :2, 3], axis=1)
-    assert off[2000:3000].max() > 0.003
-    assert off[-1] < 0.002
+    assert off[-1] < 0.5 * off[2000:3000].max()
 
 
 def test_the_mirrored_plan_runs_mirrored(exo, plan, steady):
@@ -77,9 +77,9 @@ def test_the_mirrored_plan_runs_mirrored(exo, plan, steady):
 @pytest.mark.parametrize(("forward", "left"), [(0.01, 0.0), (-0.01, 0.0), (0.0, 0.01), (0.0, -0.01)])
 def test_the_ankles_press_where_the_body_errs(exo, plan, forward, left):
     """Standing still, the pelvis off by 10 mm: the added torques move the centre of pressure that way."""
-    _, controller = find_controller("pd_stabilised")
+    controller = Stabiliser()
     found = torques(exo, plan.gait, cutoff=None, free=True)
-    reset(controller, found.robot, plan.gait)
+    controller.reset(found.robot, plan.gait)
     still, rest = np.zeros(12), np.zeros(6)
     q = found.motion.q[0, 7:]
     wanted = Reference(0.0, q, still, still, still, still)
