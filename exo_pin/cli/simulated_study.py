@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from exo_pin.study import Share, SimulatedStudy
     from exo_pin.study.simulated_case import SimulatedCase, SimulatedOutcome
 
-TABLE = "simulated.csv"
+SIMULATED_FILE = "simulated.csv"
 """The table if no other is named."""
 
 _LISTS = {

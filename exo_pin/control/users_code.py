@@ -21,7 +21,7 @@ _PACKAGE = Path(__file__).parents[1]
 """Frames in here are ours, not the user's."""
 
 
-class Progress:
+class Watched:
     """Counts the steps that are done."""
 
     def __init__(self) -> None:
@@ -38,14 +38,14 @@ class _TooLong(BaseException):
 
 
 @contextlib.contextmanager
-def time_limit(seconds: float, refused: Callable[[int], ExoPinError]) -> Iterator[Progress]:
+def time_limit(seconds: float, refused: Callable[[int], ExoPinError]) -> Iterator[Watched]:
     """End what does no step within a time, on the main thread of POSIX; elsewhere nothing is done.
 
     Args:
         seconds: For one step.
         refused: The error to raise, given the steps that were done.
     """
-    progress = Progress()
+    progress = Watched()
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield progress
         return

@@ -13,7 +13,7 @@ from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics.ground_forces import GroundForces, from_wrenches, held
 from exo_pin.dynamics.plate_checks import check_both_feet, check_plates, check_points, check_steps
 from exo_pin.dynamics.plate_clock import check_event_times
-from exo_pin.dynamics.standing_under_load import NOBODY, check_standing
+from exo_pin.dynamics.standing_under_load import NO_FOOT, check_standing
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import ForcePlate
@@ -135,7 +135,7 @@ def _unassigned(steps: Sequence[PlateStep], time: Array) -> Mask:
     """`(n,)` whether a plate bears a force whose foot is not known, or two feet."""
     shared = np.zeros(len(time), dtype=bool)
     for step in steps:
-        if step.side is None and step.why != NOBODY:
+        if step.side is None and step.why != NO_FOOT:
             shared |= _during(step, time, 0.0)
     return shared
 
@@ -156,7 +156,7 @@ def _remarks(
         (shared & ~beside & ~outside, "the force of a plate is not one foot's alone"),
     ]
     out = [f"{int(mask.sum())} of {n} frames are not valid: {why}" for mask, why in reasons if mask.any()]
-    nobody = {step.plate.name for step in steps if step.why == NOBODY}
+    nobody = {step.plate.name for step in steps if step.why == NO_FOOT}
     if nobody:
-        out.append(f"a force on {', '.join(sorted(nobody))} is not used: {NOBODY}")
+        out.append(f"a force on {', '.join(sorted(nobody))} is not used: {NO_FOOT}")
     return tuple(out)

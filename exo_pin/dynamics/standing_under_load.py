@@ -18,7 +18,7 @@ from exo_pin.kinematics import PlateStep
 from exo_pin.kinematics.plate_contacts import FARTHEST, LOADED_PART
 from exo_pin.kinematics.sole_points import heels_and_balls
 
-NOBODY = "no foot is there"
+NO_FOOT = "no foot is there"
 """Why a contact belongs to no foot, where nothing under the feet can be missing because of it."""
 
 ON_THE_SPOT = 0.3
@@ -60,7 +60,7 @@ def check_standing(gait: Gait, corners: Array, steps: Sequence[PlateStep], event
         return  # the ground's velocity is not known
     moves = _moves(gait, corners, ground_velocity(gait.time, soles[:, :, 0], events, pelvis))
     for step in steps:
-        if step.side is None and step.why in ("", NOBODY):
+        if step.side is None and step.why in ("", NO_FOOT):
             continue
         load = _load(gait, step)
         empty = float(np.median(np.diff(step.plate.time)) * (~_borne(load, soles, moves)).sum())

@@ -11,10 +11,10 @@ from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 from exo_pin.simulation.mujoco_model import FLOOR, Floor, compiled, mujoco_spec
 
-CONTACT = 6
+SENSED = 6
 """Numbers that a sole corner's sensor gives: force of the floor and where, world axes."""
 
-SOLES = len(CORNERS) * CONTACT
+SOLES = len(CORNERS) * SENSED
 """Columns of the sole corners in `sensordata`; those of the joint stops follow, in the joints' order."""
 
 _NETFORCE = 3

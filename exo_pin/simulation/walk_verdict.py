@@ -15,7 +15,7 @@ from exo_pin.simulation.simulated_walk import SimulatedWalk
 
 VerdictWord = Literal["walks", "stumbles", "falls", "diverges"]
 
-CONTACT = 20.0
+CONTACT_FORCE = 20.0
 """A foot touches the floor from this vertical force on [N]."""
 
 _SWING_CONTACT, _CARRIED, _TRACKING, _SATURATED = 2.0, 0.85, 20.0, 30.0
@@ -140,7 +140,7 @@ def driven_joints(run: SimulatedWalk) -> Mask:
 
 def _swing_contact(run: SimulatedWalk, foot: int, rows: slice) -> list[float]:
     """Percent of each cycle's swing in which the foot touches the floor."""
-    time, touching = run.time[rows], run.floor.force[rows, foot, 2] > CONTACT
+    time, touching = run.time[rows], run.floor.force[rows, foot, 2] > CONTACT_FORCE
     try:
         stance = run.gait.stance(SIDES[foot])
     except GaitError:

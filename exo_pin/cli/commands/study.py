@@ -97,7 +97,7 @@ def run(args: argparse.Namespace) -> int:
     from exo_pin import study
 
     simulated_study.check(args)
-    args.output = args.output or (simulated_study.TABLE if args.simulate else "study.csv")
+    args.output = args.output or (simulated_study.SIMULATED_FILE if args.simulate else "study.csv")
     _check_names(args)
     if args.simulate:
         return simulated_study.run(args)

@@ -20,7 +20,7 @@ from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.draw.palette import LineStyle, line_styles
 from exo_pin.report.draw.trial_bars import Panel, trial_bars
 from exo_pin.report.sections.angles import band_words
-from exo_pin.report.sections.clinical import TITLES, chart, degrees
+from exo_pin.report.sections.clinical import CURVE_TITLES, chart, degrees
 
 _HEADS = (
     "trial",
@@ -201,7 +201,7 @@ def _over(
             mean = curve.label == side
             label = trial.name if mean else ""
             curves.append(replace(curve, colour=style.colour, label=label, dash=style.dash if mean else None))
-    title = TITLES[angle].replace(" [deg]", "").replace(" (varus)", "")
+    title = CURVE_TITLES[angle].replace(" [deg]", "").replace(" (varus)", "")
     return Chart(
         title=f"{side.capitalize()} {title[0].lower()}{title[1:]}",
         x_label="% of the side's gait cycle",

@@ -19,7 +19,7 @@ from exo_pin.report.draw.chart import Band, Chart, Curve, Moment, draw, key
 from exo_pin.report.draw.drawing import Drawing
 from exo_pin.report.draw.movement_map import movement_map
 
-TITLES: dict[ClinicalAngle, str] = {
+CURVE_TITLES: dict[ClinicalAngle, str] = {
     "pelvis_tilt": "Pelvis tilt, forward + [deg]",
     "pelvis_obliquity": "Pelvis obliquity, up + [deg]",
     "pelvis_rotation": "Pelvis rotation, forward + [deg]",
@@ -52,7 +52,9 @@ def beside_the_joints(sides: Sequence[ClinicalCycles], band: NormalBand | None) 
     if not charts:
         why = "The pelvis's motion is not recorded." if sides else "No foot has a whole cycle."
         return Section(title, (Paragraph(f"{why} No curves of pelvis and foot progression."),), "sheet")
-    drawings = tuple(Drawing(f"curve_{angle}", TITLES[angle], draw(made)) for angle, made in charts.items())
+    drawings = tuple(
+        Drawing(f"curve_{angle}", CURVE_TITLES[angle], draw(made)) for angle, made in charts.items()
+    )
     legend = Drawing("curve_key_pelvis", "Key of the curves", key(list(charts.values())))
     return Section(title, (Figure(drawings, _sources(sides)), Figure((legend,), columns=1)), "sheet")
 
@@ -96,7 +98,7 @@ def chart(
         if np.isfinite(side.toe_off).any():
             moments.append(Moment(float(np.nanmean(side.toe_off)), colour, f"{side.side} toe-off"))
     return Chart(
-        title=TITLES[angle],
+        title=CURVE_TITLES[angle],
         x_label="% of the side's gait cycle",
         curves=tuple(curves),
         bands=tuple(bands),
