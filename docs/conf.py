@@ -73,12 +73,25 @@ def reference_page(module: ModuleType) -> str:
 def chapter(text: str) -> str:
     """A page at the root of the repository, its links as they are from the folder of generated pages."""
     text = re.sub(rf"\]\(({'|'.join(OUTSIDE)})\.md", lambda m: f"]({m[1].lower()}.md", text)
-    return text.replace("](docs/", "](../")
+    return text.replace("](docs/gallery)", "](gallery.md)").replace("](docs/", "](../")
+
+
+def gallery() -> str:
+    """The example scripts as one page."""
+    lines = [
+        "# Gallery",
+        "Scripts of the folder `docs/gallery` that run as they are; a test runs each.",
+    ]
+    for path in sorted((HERE / "gallery").glob("*.py")):
+        title, _, code = path.read_text("utf-8").removeprefix('"""').partition('"""\n')
+        lines += [f"## {path.stem.replace('_', ' ').capitalize()}", title, f"```python\n{code.strip()}\n```"]
+    return "\n\n".join(lines) + "\n"
 
 
 def generated() -> dict[str, str]:
     """Every generated page by its path below the folder."""
     pages = {f"reference/{room}.rst": reference_page(module) for room, module in rooms().items()}
+    pages["gallery.md"] = gallery()
     return pages | {f"{n.lower()}.md": chapter((ROOT / f"{n}.md").read_text("utf-8")) for n in OUTSIDE}
 
 
