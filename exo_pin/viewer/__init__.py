@@ -1,7 +1,8 @@
 """The viewer: a walk in the browser, live or as one offline page.
 
 `scene(robot, gait)` makes the picture as a value, `html(scene)` a self-contained page of it, and
-`serve(scene)` shows the same page from a server on this machine; `view(robot, gait)` is for notebooks.
+`serve(scene)` shows the same page from a server on this machine; `view(robot, gait)` is for notebooks,
+`draw(vis, robot)` for a window of the meshcat package that is open already.
 Imports happen when a name is first used, so a server can start before Pinocchio is loaded.
 """
 
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from exo_pin.viewer.live.server import Server, serve
+    from exo_pin.viewer.meshcat_window import MeshcatRobot, draw
     from exo_pin.viewer.page.packing import bundle, html
     from exo_pin.viewer.scenes.compiler import exoskeleton_scene, robot_scene
     from exo_pin.viewer.scenes.kinetics import Kinetics
@@ -21,11 +23,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Kinetics",
+    "MeshcatRobot",
     "Scene",
     "SceneOptions",
     "Server",
     "View",
     "bundle",
+    "draw",
     "exoskeleton_scene",
     "html",
     "retargeted",
@@ -37,11 +41,13 @@ __all__ = [
 
 _HOMES = {
     "Kinetics": "scenes.kinetics",
+    "MeshcatRobot": "meshcat_window",
     "Scene": "scenes.scene",
     "SceneOptions": "scenes.staging",
     "Server": "live.server",
     "View": "views",
     "bundle": "page.packing",
+    "draw": "meshcat_window",
     "exoskeleton_scene": "scenes.compiler",
     "html": "page.packing",
     "retargeted": "views",

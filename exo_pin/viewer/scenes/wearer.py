@@ -56,11 +56,13 @@ def wearer(
     Raises:
         ExoPinError: example-robot-data is not installed.
     """
-    size, name = (body.stature - body.leg_length) / _HEAD, root.rpartition("/")[2]
+    size, name = _size(body), root.rpartition("/")[2]
     middle = {"pelvis": f"{links['pelvis']}/wearer", "trunk": f"{root}/look"}
     left, right = (_limbs(links, root, side) for side in SIDES)
     paths = (*middle.values(), *left.values(), *right.values())
     chain, placements = _arms(root, size, body.girth)
+    hips = gait.q[:, [JOINTS.index(f"{side}_hip_flexion") for side in SIDES]]
+    arms, trunk = upper_body(body, hips - hips.mean(axis=0), base)
     mirrored = [place(path, _mirrored(body, part)) for part, path in right.items()]
     if like is None:
         shapes = _middle(size, body.girth) | _limb_shapes(body, size)
@@ -72,10 +74,29 @@ def wearer(
     return Actor(
         commands=(*pictures, *mirrored, *placements),
         chain=chain,
-        arrays={f"{name}_q": _swing(gait), f"{name}_base": _trunk(base, size)},
+        arrays={f"{name}_q": arms, f"{name}_base": trunk},
         group=Group("Wearer", paths),
         twins=twins,
     )
+
+
+def upper_body(body: Body, hips: Array, base: Array) -> tuple[Array, Array]:
+    """Arms and trunk of the person on a moving pelvis (illustration).
+
+    Args:
+        body: Sizes.
+        hips: `(n, 2)` left and right hip flexion from its mean [rad].
+        base: `(n, 4, 4)` pose of the pelvis.
+
+    Returns:
+        Shoulder and elbow of both sides `(n, 4)` [rad], and the trunk's pose `(n, 7)`.
+    """
+    return _swing(hips), _trunk(base, _size(body))
+
+
+def _size(body: Body) -> float:
+    """How large the upper body is, beside the figure's."""
+    return (body.stature - body.leg_length) / _HEAD
 
 
 def _limbs(links: Mapping[str, str], root: str, side: Side) -> dict[str, str]:
@@ -169,12 +190,10 @@ def _arms(root: str, size: float, girth: float) -> tuple[Chain, list[Command]]:
     return Chain(name, root, links, tuple(joints), f"{name}_q", f"{name}_base"), commands
 
 
-def _swing(gait: Gait) -> Array:
+def _swing(hips: Array) -> Array:
     """`(n, 4)` shoulder and elbow of both sides: with the opposite hip, about half as far (illustration)."""
     columns = []
-    for other in reversed(SIDES):
-        hip = gait.q[:, JOINTS.index(f"{other}_hip_flexion")]
-        swing = hip - hip.mean()
+    for swing in reversed(hips.T):
         columns += [0.55 * swing - 0.05, 0.40 + 0.25 * swing]
     return np.stack(columns, axis=1)
 
