@@ -18,7 +18,7 @@ DISTRIBUTION = {  # name of an import -> name of what is installed, where the tw
     "umsgpack": "u-msgpack-python",
     "yaml": "pyyaml",
 }
-DATA = {"example-robot-data", "meshcat"}
+DATA = {"example-robot-data"}
 """Read as files, never imported: robots' descriptions, the player's JavaScript."""
 OPTIONAL = {"pandas", "xarray", "matplotlib", "opensim"}
 """Of extras: the witness is left out where they are not installed."""
