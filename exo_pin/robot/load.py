@@ -52,8 +52,9 @@ def load_robot(
     text = description.urdf(body, device=found, hip_order=hip_order, masses=masses)
     placement = np.eye(4)
     placement[2, 3] = body.leg_length
-    robot = load_urdf(text, base=base, placement=placement)
-    return dataclasses.replace(robot, body=body, hip_order=hip_order, device=found, masses=masses)
+    word("base", base, get_args(Base))
+    robot = _built(text, base, placement, hip_order)  # our own text: it needs no judgement as a stranger's
+    return dataclasses.replace(robot, body=body, device=found, masses=masses)
 
 
 def load_urdf(
@@ -88,6 +89,11 @@ def load_urdf(
     if path is None and text is not source:
         path = source
     text, remarks = _accepted(text, path)
+    return dataclasses.replace(_built(text, base, stand, hip_order, path), remarks=remarks)
+
+
+def _built(text: str, base: Base, stand: Array, hip_order: HipOrder, path: str | Path | None = None) -> Robot:
+    """The robot of a URDF's text that is accepted; errors name the file."""
     try:
         model = urdf_parser.built(text, *((pin.JointModelFreeFlyer(),) if base == "floating" else ()))
     except DescriptionError as error:
@@ -111,7 +117,6 @@ def load_urdf(
         base=base,
         hip_order=hip_order,
         path=None if path is None else Path(path).absolute(),
-        remarks=remarks,
     )
 
 
