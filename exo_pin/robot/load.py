@@ -45,6 +45,7 @@ def load_robot(
         DescriptionError: The wearer's masses of a body that is a bare device's.
         FormatError: The device's file is not accepted.
     """
+    word("base", base, get_args(Base))
     body = Body.from_stature() if body is None else body
     found = devices.find(device)
     if base == "floating":
@@ -52,7 +53,6 @@ def load_robot(
     text = description.urdf(body, device=found, hip_order=hip_order, masses=masses)
     placement = np.eye(4)
     placement[2, 3] = body.leg_length
-    word("base", base, get_args(Base))
     robot = _built(text, base, placement, hip_order)  # our own text: it needs no judgement as a stranger's
     return dataclasses.replace(robot, body=body, device=found, masses=masses)
 
