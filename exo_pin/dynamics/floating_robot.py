@@ -15,6 +15,8 @@ from exo_pin.robot import Robot, load_robot, load_urdf
 def floating_robot(robot: Robot, masses: Masses = "both") -> Robot:
     """The same robot on a pelvis that moves freely, with these masses; itself where it is that already.
 
+    It is built at the first call and kept in `Robot.floating`.
+
     Args:
         robot: Any robot with feet.
         masses: `"wearer"` leaves out the hardware's masses, `"device"` the wearer's.
@@ -26,6 +28,12 @@ def floating_robot(robot: Robot, masses: Masses = "both") -> Robot:
     word("masses", masses, get_args(Masses))
     if robot.base == "floating" and robot.masses == masses:
         return robot
+    if masses not in robot.floating:
+        robot.floating[masses] = _built(robot, masses)
+    return robot.floating[masses]
+
+
+def _built(robot: Robot, masses: Masses) -> Robot:
     if robot.body is not None and robot.device is not None:
         return load_robot(
             robot.body, device=robot.device, hip_order=robot.hip_order, base="floating", masses=masses

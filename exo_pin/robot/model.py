@@ -288,6 +288,11 @@ class Robot:
         clinical = in_hip_order(angles, source=self.hip_order, target="clinical")
         return dataclasses.replace(like, q=clinical, base=base)
 
+    @cached_property
+    def floating(self) -> dict[Masses, Robot]:
+        """The same robot on a floating pelvis by whose masses it has, filled by `exo_pin.dynamics`."""
+        return {}
+
     def slid(self, q: npt.ArrayLike) -> Array:
         """T_stand_pelvis (..., 4, 4): where the slides of q (..., nq) have carried the pelvis.
 
