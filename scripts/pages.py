@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -23,3 +24,10 @@ def rewrite(page: str, parts: Mapping[str, str]) -> None:
     """Replace the named parts of a page of docs/."""
     path = DOCS / page
     path.write_text(replaced(path.read_text(encoding="utf-8"), parts), encoding="utf-8")
+
+
+def usage(text: str | None) -> None:
+    """Print what a script does and end, where it is called with -h or --help: nothing is written then."""
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print((text or "").strip())
+        sys.exit(0)
