@@ -136,8 +136,14 @@ def link_chapters(app: Any, docname: str, source: list[str]) -> None:
     source[0] = re.sub(found, lambda m: f"](generated/{m[1].lower()}.md", source[0])
 
 
+def skip_field(app: Any, what: str, name: str, value: Any, skip: bool, options: Any) -> bool | None:
+    """Leave out fields of a NamedTuple whose only text is Python's own: the class describes them."""
+    return True if str(getattr(value, "__doc__", "")).startswith("Alias for field number") else None
+
+
 def setup(app: Any) -> None:
     """Connect the above to Sphinx."""
     app.connect("builder-inited", write_generated)
     app.connect("autodoc-process-docstring", prepare_docstring, priority=400)  # napoleon comes at 500
+    app.connect("autodoc-skip-member", skip_field)
     app.connect("source-read", link_chapters)
