@@ -108,7 +108,8 @@ _OF_MANY_SAMPLES = {"dh", "ik", "kinematics", "robot"}
 
 WITHOUT_CALLERS = {
     "arguments", "arrays", "cache", "chunks", "cli", "errors", "examples", "files", "frozen_fields",
-    "physics", "ros_packages", "safe", "scratch", "version", "xacro_files", "__main__",
+    "html_summary", "physics", "plugins", "ros_packages", "safe", "scratch", "short_repr",
+    "version", "xacro_files", "__main__",
 }  # fmt: skip
 """Rooms that the others stand on, or the command line: no one calls them from outside."""
 

@@ -14,7 +14,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "exo_pin"
 FLOORS = [
     {"errors", "version", "arrays", "physics", "frozen_fields"},
-    {"arguments", "files", "scratch", "chunks", "short_repr"},
+    {"arguments", "files", "scratch", "chunks", "short_repr", "plugins"},
     {"safe", "cache", "examples"},
     {"ros_packages"},
     {"xacro_files"},
@@ -55,6 +55,7 @@ GROUND = {
     "physics",
     "frozen_fields",
     "short_repr",
+    "plugins",
     "html_summary",
     "files",
     "cache",

@@ -14,7 +14,8 @@ from exo_pin.control.controller import Controller, Reference
 from exo_pin.control.controller_file import load_controller
 from exo_pin.control.servo import SOFT_DAMPING, SOFT_STIFFNESS, ComputedTorque, GravityServo, Servo
 from exo_pin.control.stabiliser import FreeServo, Stabiliser
-from exo_pin.errors import known_name
+from exo_pin.errors import known_name, same_name
+from exo_pin.plugins import plugin, plugin_names
 
 
 class Off:
@@ -45,9 +46,10 @@ the weight of the legs, computed torque, soft without and with feed-forward, ass
 
 
 def find_controller(controller: str | Controller) -> tuple[str, Controller]:
-    """Name and controller: one of `CONTROLLERS`, `file.py:Class`, or the object itself.
+    """Name and controller: one of `CONTROLLERS`, `file.py:Class`, a plug-in's class, or the object itself.
 
     Raises:
+        DescriptionError: Another package's controller cannot be loaded.
         UnknownNameError: There is no such controller.
         FormatError: The file cannot be run.
     """
@@ -55,5 +57,9 @@ def find_controller(controller: str | Controller) -> tuple[str, Controller]:
         return getattr(controller, "__name__", type(controller).__name__), controller
     if isinstance(controller, str) and controller.partition(":")[0].endswith(".py"):
         return controller.rpartition("/")[2], load_controller(controller)
-    name = known_name("controller", controller, CONTROLLERS)
+    if same_name(controller, CONTROLLERS) is None:
+        added = plugin("exo_pin.controllers", controller, type)
+        if added is not None:
+            return controller, added()
+    name = known_name("controller", controller, (*CONTROLLERS, *plugin_names("exo_pin.controllers")))
     return name, CONTROLLERS[name]()

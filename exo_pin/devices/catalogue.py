@@ -12,6 +12,7 @@ from exo_pin.devices.actuator import DEFAULT_ACTUATORS, Actuator
 from exo_pin.devices.device import Device, both
 from exo_pin.devices.device_file import load
 from exo_pin.errors import FormatError, UnknownNameError, same_name
+from exo_pin.plugins import plugin, plugin_names
 
 _CHOSEN = "Torques and speeds: a design choice, those of exo12 (no source gives them joint by joint)."
 _TRAVEL = "Travel and speed of the pelvis's slides: a design choice, +-0.10 m and 1 m/s."
@@ -188,7 +189,10 @@ def _known_name(text: str) -> str | None:
 def find(device: str | Device) -> Device:
     """The device of that name (capitals do not matter), or of that TOML file; a record is handed back.
 
+    Names that are not known are looked up among the entry points `exo_pin.devices` of installed packages.
+
     Raises:
+        DescriptionError: Another package's device cannot be loaded.
         UnknownNameError: There is no device of that name.
         FormatError: The file is a robot's description, no device, or has the name of a known one.
     """
@@ -208,4 +212,7 @@ def find(device: str | Device) -> Device:
             "a robot's description is no device: a name or a TOML record is accepted (docs/devices.md); "
             "robots walk by `exo-pin retarget` and by --robot of replay, picture, film and report",
         )
-    raise UnknownNameError("device", device, (*DEVICES, *_PRODUCTS))
+    added = plugin("exo_pin.devices", str(device), Device)
+    if added is None:
+        raise UnknownNameError("device", device, (*DEVICES, *_PRODUCTS, *plugin_names("exo_pin.devices")))
+    return added

@@ -19,6 +19,7 @@ from exo_pin.formats.trajectory_writer import write_json, write_yaml
 from exo_pin.formats.trc import open_trc
 from exo_pin.formats.trial_file import TrialFile
 from exo_pin.gait import Gait
+from exo_pin.plugins import plugins
 
 Content = Literal["angles", "markers", "torques", "forces"]
 """What a file of a format may hold."""
@@ -163,6 +164,7 @@ def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
     if content is not None:
         word("content", content, get_args(Content))
     known = formats_of(content) if content else {**MARKER_FORMATS, **FORMATS}
+    known = _with_plugins(path, content, known)
     entry = find_format(path, content or "angles", known)
     special = _recognised(path, _ALL)
     if special or entry.recognises is None:
@@ -177,8 +179,16 @@ def written_format(path: Path) -> Format:
     Raises:
         FormatError: No format with this ending is written.
     """
-    known = {key: entry for key, entry in FORMATS.items() if entry.write}
+    known = {key: entry for key, entry in _with_plugins(path, "angles", FORMATS).items() if entry.write}
     return _recognised(path, [e for e in _ALL if e.write]) or find_format(path, "angles", known)
+
+
+def _with_plugins(path: Path, content: Content | None, known: Mapping[str, Format]) -> Mapping[str, Format]:
+    """The known formats, and where none of them has the file's ending those of other packages."""
+    if path.suffix.lower() in known:
+        return known
+    added = [entry for entry in plugins("exo_pin.formats", Format) if content in (None, *entry.holds)]
+    return {suffix: entry for entry in added for suffix in entry.suffixes} | dict(known)
 
 
 def _recognised(path: Path, entries: Iterable[Format]) -> Format | None:

@@ -13,6 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError, UnknownNameError, same_name
 from exo_pin.examples import located
 from exo_pin.files import read_text
+from exo_pin.plugins import plugin, plugin_names
 from exo_pin.retarget import leg_search, target_file
 from exo_pin.retarget.both_legs import on_their_branch, read_legs
 from exo_pin.retarget.leg_search import NoPairError, Standing
@@ -86,7 +87,11 @@ def find(target: str | Path | Target) -> Target:
     same = same_name(str(target), TARGETS)
     if same is not None:
         return TARGETS[same]
-    raise UnknownNameError("robot (a name, a .urdf, .xacro or .toml file)", str(target), TARGETS)
+    added = plugin("exo_pin.targets", str(target), Target)
+    if added is None:
+        known = (*TARGETS, *plugin_names("exo_pin.targets"))
+        raise UnknownNameError("robot (a name, a .urdf, .xacro or .toml file)", str(target), known)
+    return added
 
 
 def load(target: str | Path | Target) -> Biped:

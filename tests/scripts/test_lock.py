@@ -16,7 +16,8 @@ LINUX = {"sys_platform": "linux", "platform_machine": "x86_64", "os_name": "posi
 
 def wanted():
     extras = PROJECT["optional-dependencies"]
-    texts = [*PROJECT["dependencies"], *extras["test"], *extras["dev"], *extras["oracle"]]
+    pinned = ("test", "dev", "oracle", "docs", "plot", "tables")
+    texts = [*PROJECT["dependencies"], *(text for name in pinned for text in extras[name])]
     return [Requirement(text) for text in texts if not text.startswith("exo_pin")]
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from typing import Any
 
 from exo_pin.cli import show
 from exo_pin.devices import DEVICES, Actuator, Device, find, movement_of
+from exo_pin.errors import ExoPinError
+from exo_pin.plugins import plugin_names
 
 _EXAMPLES = """examples:
   exo-pin devices                    all of them
@@ -25,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the list, or one device."""
-    chosen = list(DEVICES.values()) if args.device is None else [find(args.device)]
+    chosen = _all() if args.device is None else [find(args.device)]
     if args.json:
         show.as_json({device.name: _to_json(device) for device in chosen})
     elif args.device is None:
@@ -33,6 +36,17 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print_one(chosen[0])
     return 0
+
+
+def _all() -> list[Device]:
+    """The devices of this package and those of others; one that cannot be loaded is a note."""
+    found = list(DEVICES.values())
+    for name in plugin_names("exo_pin.devices"):
+        try:
+            found.append(find(name))
+        except ExoPinError as error:
+            print(f"note: {show.plain(str(error))}", file=sys.stderr)
+    return list({device.name: device for device in found}.values())
 
 
 def _to_json(device: Device) -> dict[str, Any]:
