@@ -24,9 +24,6 @@ _LOADED = 20.0
 _BEFORE_END = 1e-6
 """The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
 
-_MICROMETRES = 6
-"""Decimals of the soles' corners [m]: corners on one line are so to rounding, for the hull."""
-
 
 @dataclass(frozen=True)
 class FreeNumbers:
@@ -72,7 +69,7 @@ def zmp_margins(gait: Gait, required: Dynamics) -> Array:
     stance = stance_from_events(gait) or estimated_stance(gait, lowest_corners(corners))
     time = np.minimum(gait.time - gait.time[0], gait.duration - _BEFORE_END)
     stands = np.stack([standing(stance, side, time) for side in SIDES], axis=1)
-    soles = np.round(corners[..., :2].reshape(len(gait), len(FEET), -1, 2), _MICROMETRES)
+    soles = corners[..., :2].reshape(len(gait), len(FEET), -1, 2)
     return np.array(
         [
             margin(convex_hull(sole[feet].reshape(-1, 2)), at[None])[0]

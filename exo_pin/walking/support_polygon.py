@@ -12,17 +12,23 @@ from exo_pin.errors import DescriptionError
 from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.schedule import PhaseSamples
 
+_DECIMALS = 6
+"""Points are taken to a micrometre: of points on one line but for rounding any could come first."""
+
 _TURNS = 1e-12
 """Three points whose triangle is smaller lie on a line [m^2]."""
 
 
 def convex_hull(points: npt.ArrayLike) -> Array:
-    """Corners `(k, 2)` of the convex hull of points `(n, 2)`, counter-clockwise (Andrew's monotone chain).
+    """Corners `(k, 2)` of the convex hull of points `(n, 2)`, counter-clockwise (Andrew's monotone chain) [m].
+
+    Points are rounded to a micrometre.
 
     Raises:
         DescriptionError: The points lie on a line, their shape does not fit, or a number is not finite.
     """
-    ordered = sorted(set(map(tuple, real("points", points, ("n", 2)).tolist())))
+    rounded = np.round(real("points", points, ("n", 2)), _DECIMALS)
+    ordered = sorted(set(map(tuple, rounded.tolist())))
     lower, upper = _chain(ordered), _chain(ordered[::-1])
     if len(lower) + len(upper) < 5:
         raise DescriptionError("points lie on a line; three that do not are accepted")

@@ -28,3 +28,15 @@ def test_every_point_is_inside_its_own_hull(points):
     hull = convex_hull(points)
     assert margin(hull, points).min() > -1e-9
     assert set(map(tuple, hull)) <= set(map(tuple, points))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, np.pi / 2])
+def test_corners_on_one_line_but_for_rounding_make_the_hull_that_one_sees(turn):
+    """Two soles side by side: eight corners, four of them on two lines within 1e-10."""
+    x, y = np.meshgrid([-0.1, 0.1], [-0.2, -0.1, 0.1, 0.2])
+    points = np.stack([x.ravel(), y.ravel()], axis=1) + 1e-10 * np.sin(np.arange(16.0)).reshape(8, 2)
+    R = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    hull = convex_hull(points @ R.T)
+    area = 0.5 * abs(np.sum(hull[:, 0] * np.roll(hull[:, 1], -1) - hull[:, 1] * np.roll(hull[:, 0], -1)))
+    assert area == pytest.approx(0.2 * 0.4, abs=1e-6)
+    assert margin(hull, points @ R.T).min() > -2e-6
