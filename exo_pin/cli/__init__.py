@@ -49,6 +49,7 @@ COMMANDS = {
     "doctor": "what is installed here, what is missing, and the cure",
     "dh": "the Denavit-Hartenberg table for a body",
     "cache": "what is kept between runs, and its deletion",
+    "completion": "the completion of commands and options for bash, zsh or fish",
 }
 """Commands and their help; each is a module of `commands`: `configure(parser)`, `run(args) -> exit code`."""
 
@@ -121,7 +122,7 @@ def _run_command(words: list[str]) -> int:
             raise UnknownNameError("command or file", words[0], COMMANDS)
         words.insert(0, "replay")
     with _early(words) as server:
-        parser = _parser(words)
+        parser = command_parser(words)
         args = parser.parse_args(words, argparse.Namespace(words=words, server=server))
         if args.command is None:
             parser.print_help()
@@ -152,8 +153,12 @@ def _discard_output() -> None:
     os.close(nowhere)
 
 
-def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
-    """The parser. It imports only the command in use, so that help stays quick."""
+def command_parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """The parser. It imports only the command in use, so that help stays quick.
+
+    Args:
+        words: The words to be parsed; a command among them gets its options.
+    """
     parser = Parser(
         prog="exo-pin",
         description="A person's walk becomes an exoskeleton's walk.",

@@ -13,16 +13,16 @@ from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.schedule import PhaseSamples
 
 _DECIMALS = 6
-"""Points are taken to a micrometre: of points on one line but for rounding any could come first."""
+"""Points are taken to a micrometre: of those on one line but for rounding any could come first."""
 
 _TURNS = 1e-12
 """Three points whose triangle is smaller lie on a line [m^2]."""
 
 
 def convex_hull(points: npt.ArrayLike) -> Array:
-    """Corners `(k, 2)` of the convex hull of points `(n, 2)`, counter-clockwise (Andrew's monotone chain) [m].
+    """Corners `(k, 2)` of the convex hull of points `(n, 2)`, counter-clockwise (Andrew's monotone chain).
 
-    Points are rounded to a micrometre.
+    Points [m] are rounded to a micrometre.
 
     Raises:
         DescriptionError: The points lie on a line, their shape does not fit, or a number is not finite.
