@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from exo_pin import viewer
+from exo_pin.gait.rigid_poses import about
 from exo_pin.kinematics import poses
 from exo_pin.viewer.scenes.link_nodes import linkage
 
@@ -45,12 +46,11 @@ def test_a_pose_from_python_is_shown_at_once(browser, server, robot, rng):
     browser.open(server.url)
     q = rng.uniform(robot.lower, robot.upper)
     names = [joint.name for joint in linkage(robot.urdf, "/x").joints]
-    base = [0.1, 0.2, 1.3, 0, 0, 0, 1]
-    server.pose([q[robot.joints.index(name)] for name in names], base)
+    stand = np.eye(4)
+    stand[:3, :3], stand[:3, 3] = about([0.0, 0.0, 1.0], 0.4), [0.1, 0.2, 1.3]
+    server.pose([q[robot.joints.index(name)] for name in names], stand)
     browser.wait("Math.abs(exo.chains[0].root.position.z - 1.3) < 1e-3")
     found = np.array(browser.evaluate("exo.chains[0].matrices().left_foot")).reshape(4, 4).T
-    stand = np.eye(4)
-    stand[:3, 3] = base[:3]
     assert found == pytest.approx(poses(robot, q, base=stand)[0], abs=SINGLE)
     assert browser.evaluate("exo.clock.playing") is False
 

@@ -243,10 +243,10 @@ def test_pages_that_vanish_while_they_are_sent_to_make_no_noise(server, capfd):
             "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n".encode()
         )
         raw.recv(100)
-        server.pose(np.zeros(12), [0, 0, 1, 0, 0, 0, 1])
+        server.pose(np.zeros(12), np.eye(4))
         raw.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")  # close by reset
         raw.close()
-        server.pose(np.zeros(12), [0, 0, 1, 0, 0, 0, 1])
+        server.pose(np.zeros(12), np.eye(4))
     end = time.monotonic() + PATIENCE
     while server.clients and time.monotonic() < end:
         time.sleep(0.02)

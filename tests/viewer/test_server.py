@@ -22,6 +22,9 @@ PATIENCE = 10.0  # [s]: far beyond what a message on loopback needs
 FLOOD = 400  # requests at once
 WARM_UP, MINUTE, BATCH = 600, 3600, 60  # poses; a minute at 60 a second
 GROWTH = 20_000  # [bytes]: a pose is 76 bytes long; keeping one byte in ten of each would show
+UPRIGHT = np.eye(4)
+"""A pelvis in the origin."""
+
 POSE_COST = 0.15e-3  # [s] of Python per live pose
 STATE = {"type": "state", "time": 0.5, "playing": False, "speed": 0.5, "loop": True, "view": "left"}
 
@@ -200,7 +203,7 @@ def test_sixty_seconds_of_poses_leave_no_memory_behind(server):
             async def play(count):
                 for _ in range(count // BATCH):
                     for k in range(BATCH):
-                        server.pose(np.full(12, k / BATCH), [0, 0, 1, 0, 0, 0, 1])
+                        server.pose(np.full(12, k / BATCH), UPRIGHT)
                     for _ in range(BATCH):
                         await asyncio.wait_for(page.read_message(), PATIENCE)
                 gc.collect()
@@ -266,7 +269,7 @@ def test_a_scene_may_follow_the_server(scene):
 
 
 def test_a_live_pose_costs_next_to_nothing(server):
-    q, base = np.zeros(12), [0, 0, 1, 0, 0, 0, 1]
+    q, base = np.zeros(12), UPRIGHT
     start = time.perf_counter()
     for _ in range(500):
         server.pose(q, base)

@@ -143,11 +143,18 @@ class Server:
 
         Args:
             q: Joint values in the order of the scene's first chain [rad].
-            base: `(7,)` pose of the pelvis: x y z [m], quaternion x y z w.
+            base: T_world_pelvis (4, 4) [m].
+
+        Raises:
+            DescriptionError: A number is not finite, or `base` is no (4, 4).
         """
         import numpy as np
 
-        numbers = np.concatenate([np.asarray(base, "<f4"), np.asarray(q, "<f4")])
+        from exo_pin.arguments import real
+        from exo_pin.robot.floating_base import base_coordinates
+
+        pelvis = base_coordinates(real("base", base, (4, 4)))
+        numbers = np.concatenate([pelvis, real("q", q, ("J",))]).astype("<f4")
         self._loop.call_soon_threadsafe(self._watchers.send, _POSE + numbers.tobytes())
 
     def open_browser(self) -> None:
