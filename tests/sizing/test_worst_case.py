@@ -42,3 +42,12 @@ def test_the_ratio_that_comes_nearest_is_the_best_for_the_worst_walk(found):
     best = worst.ratios.best
     for ratio in (0.8 * best.ratio, 1.25 * best.ratio):
         assert geared(loads, motor, ratio).worst >= best.worst
+
+
+def test_the_map_has_the_largest_torque_of_every_speed_and_support(found):
+    from exo_pin.report.draw.worst_case_map import worst_case_map
+
+    svg = worst_case_map(list(found.values()), "lokomat").svg
+    assert svg.count("hip flexion") == 1
+    value, _ = found["hip_flexion"].worst("peak_torque")
+    assert f">{100 * value / found['hip_flexion'].effort:.0f}<" in svg

@@ -22,7 +22,7 @@ _EXAMPLES = """examples:
   exo-pin size fast --motor motor.toml           which gear ratios fit, and the best one
   exo-pin size --motor maxon-ec-90-flat-48v --gear 50:1 --bws 0.3 --json
   exo-pin size -o planes.svg                     the points of torque and speed below their limits
-  exo-pin size --worst                           the worst of 4 bodies, 5 speeds, 3 supports (20 s)
+  exo-pin size --worst -o worst.svg              the worst of 4 bodies, 5 speeds, 3 supports (20 s)
 
 Each motor bears the whole torque of its joint: no person helps. Without force plates the ground reaction is
 predicted, an assumption. Without --motor the limit is the record's rectangle of effort and velocity.
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-o",
         "--output",
         metavar="FILE.svg",
-        help="write a figure: the walk's points on the torque-speed planes",
+        help="write a figure: the walk's points on the torque-speed planes; with --worst a map",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options.add_body(parser)
@@ -66,8 +66,8 @@ def run(args: argparse.Namespace) -> int:
 
     if args.gear is not None and args.motor is None:
         raise DescriptionError("--gear is the ratio of a motor; name one with --motor")
-    if args.output is not None and (args.worst or Path(args.output).suffix.lower() != ".svg"):
-        raise DescriptionError(f"{args.output}: a figure of one walk is written as .svg, none of --worst")
+    if args.output is not None and Path(args.output).suffix.lower() != ".svg":
+        raise DescriptionError(f"{args.output}: a figure is written as .svg")
     ratio = None if args.gear is None else _ratio(args.gear)
     motor = None if args.motor is None else find_motor(args.motor)
     return _run_worst(args, motor, ratio) if args.worst else _run_walk(args, motor, ratio)
@@ -193,6 +193,10 @@ def _run_worst(args: argparse.Namespace, motor: Motor | None, ratio: float | Non
     people = show.progress(sizing.bodies(), "bodies")
     found = sizing.worst_cases(args.device, motor=motor, people=people)
     fits = all(worst.fits for worst in found)
+    if args.output:
+        from exo_pin.report.draw.worst_case_map import worst_case_map
+
+        write_text(args.output, worst_case_map(found, args.device).svg)
     if args.json:
         limit = "rectangle of the device's record" if motor is None else motor.name
         facts: dict[str, Any] = {"fits": fits, "limit": limit, "ground_reaction": "predicted"}
