@@ -559,6 +559,7 @@ _OWN: Mapping[str, Any] = {
     "devices.subset.movements": lambda e: ("knee_flexion",),
     "dh.of_device.angles": lambda e: {name: e.q[:, k] for k, name in enumerate(JOINTS)},
     "edit.filtered.gait": lambda e: e.gait,
+    "edit.ramped.duration": lambda e: 4.0,
     "edit.ramped.start": lambda e: 1.0,
     "edit.ramped.stop": lambda e: 1.0,
     "edit.retimed.factor": lambda e: None,

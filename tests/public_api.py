@@ -41,6 +41,7 @@ _MEANT: Mapping[str, set[str]] = {
     "formats.is_markers.path": {"folder"},
     "formats.load_gait.columns": {"empty"},
     "formats.load_gait.mapping": {"unknown name"},
+    "formats.written_format.path": {"missing", "NUL"},
     "gait.ForcePlate.force": {"nan"},
     "gait.ForcePlate.moment": {"nan", "inf", "-inf"},
     "gait.ForcePlate.point": {"nan", "inf", "-inf"},

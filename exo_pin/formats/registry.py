@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, NamedTuple, get_args
 
-from exo_pin.arguments import word
+from exo_pin.arguments import text, word
 from exo_pin.errors import FormatError
 from exo_pin.formats import c3d, motion_bids, nexus, opensim, tables, xsens
 from exo_pin.formats.gait_cycle_data import open_gcd
@@ -173,12 +173,13 @@ def open_trial(path: str | Path, content: Content | None = None) -> TrialFile:
     return FORMATS[path.suffix.lower()].open(path)
 
 
-def written_format(path: Path) -> Format:
+def written_format(path: str | Path) -> Format:
     """The format in which a walk is written to a file of that name.
 
     Raises:
         FormatError: No format with this ending is written.
     """
+    path = path if isinstance(path, Path) else Path(text("path", path))
     known = {key: entry for key, entry in _with_plugins(path, "angles", FORMATS).items() if entry.write}
     return _recognised(path, [e for e in _ALL if e.write]) or find_format(path, "angles", known)
 

@@ -169,4 +169,8 @@ def test_the_scene_has_a_tab_of_torques_with_the_actuators_limits():
     assert knee.factor == 1
     np.testing.assert_allclose(scene.arrays["torques"], some(end=2.0).at(gait.time), rtol=1e-6)
     assert any("Torques (made)" in note for note in scene.facts.notes)
-    assert [group.title for group in viewer.scene(robot, gait).facts.plots] == ["Angles", "Velocities"]
+    assert [group.title for group in viewer.scene(robot, gait).facts.plots] == [
+        "Angles",
+        "Velocities",
+        "Pelvis",
+    ]
