@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin.cli import COMMANDS, main
 
-BASH = shutil.which("bash")
+BASH = shutil.which("bash") or ""
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def completions(tmp_path_factory):
     return behind
 
 
-@pytest.mark.skipif(BASH is None, reason="no bash")
+@pytest.mark.skipif(not BASH, reason="no bash")
 def test_bash_completes_commands_options_and_names(completions):
     assert set(COMMANDS) <= set(completions("exo-pin", ""))
     assert completions("exo-pin", "rep") == ["replay", "report", "reproduce"]
