@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from exo_pin.anatomy import SIDES
+from exo_pin.anatomy.names import ClinicalAngle, Side
 from exo_pin.clinic import NINE, GaitProfile
 from exo_pin.report.draw import svg
 from exo_pin.report.draw.chart_axis import ticks
 from exo_pin.report.draw.drawing import Drawing
 
 _WIDTH, _HEIGHT, _LEFT, _TOP = 900.0, 150.0, 34.0, 12.0
-_BAR = 22.0
+_BOTTOM, _BAR = _TOP + _HEIGHT, 22.0
 
 
 def movement_map(found: GaitProfile) -> Drawing:
@@ -25,73 +27,76 @@ def movement_map(found: GaitProfile) -> Drawing:
     Args:
         found: Scores of a walk.
     """
-    groups = [
-        (angle.replace("_", " "), [found.variables.get((s, angle), math.nan) for s in SIDES])
-        for angle in NINE
-    ]
-    groups.append(("GPS", [found.sides[side] for side in SIDES]))
-    usual = {
-        angle.replace("_", " "): float(np.sqrt(np.mean(found.band.curves[angle].sd ** 2)))
-        for angle in NINE
-        if angle in found.band.curves
-    }
-    values = [np.degrees(x) for _, pair in groups for x in pair if not math.isnan(x)]
-    top = max([5.0, *values, *np.degrees(list(usual.values()))]) * 1.12
-    bottom = _TOP + _HEIGHT
-
-    def up(degrees: float) -> float:
-        return float(bottom - _HEIGHT * degrees / top)
-
-    parts = []
-    for y in ticks(0.0, top, 5):
-        parts.append(svg.line([[_LEFT, up(y)], [_WIDTH, up(y)]], svg.FAINT, stroke_width=0.8))
-        parts.append(
-            svg.text(_LEFT - 5, up(y) + 3.5, f"{y:g}", text_anchor="end", font_size=10, fill=svg.GREY)
-        )
+    groups = [_Group.of(found, angle) for angle in NINE]
+    groups.append(_Group("GPS", [float(np.degrees(found.sides[side])) for side in SIDES], math.nan))
+    known = [x for group in groups for x in (*group.scores, group.usual) if not math.isnan(x)]
+    scale = _Scale(max([5.0, *known]) * 1.12)
     step = (_WIDTH - _LEFT) / len(groups)
-    for k, (name, pair) in enumerate(groups):
-        middle = _LEFT + step * (k + 0.5)
-        for s, (side, value) in enumerate(zip(SIDES, pair, strict=True)):
-            x = middle + (s - 1) * (_BAR + 2) + 1
-            if math.isnan(value):
-                parts.append(svg.text(x + _BAR / 2, bottom - 4, "-", text_anchor="middle", fill=svg.GREY))
-                continue
-            degrees = float(np.degrees(value))
-            parts.append(
-                svg.tag(
-                    "rect",
-                    x=x,
-                    y=up(degrees),
-                    width=_BAR,
-                    height=bottom - up(degrees),
-                    fill=svg.SIDE_COLOURS[side],
-                )
-            )
-            parts.append(
-                svg.text(
-                    x + _BAR / 2,
-                    up(degrees) - 3,
-                    f"{degrees:.1f}",
-                    text_anchor="middle",
-                    font_size=10,
-                    paint_order="stroke",
-                    stroke="#fff",
-                    stroke_width=2.5,
-                )
-            )
-        if name in usual:
-            at = up(float(np.degrees(usual[name])))
-            parts.append(
-                svg.line(
-                    [[middle - _BAR - 5, at], [middle + _BAR + 5, at]],
-                    svg.INK,
-                    stroke_width=1.2,
-                    stroke_dasharray="3 2",
-                )
-            )
-        for line, word in enumerate(name.split(" ", 1)):
-            parts.append(
-                svg.text(middle, bottom + 13 + 12 * line, word, text_anchor="middle", font_size=10.5)
-            )
+    parts = scale.grid()
+    for k, group in enumerate(groups):
+        parts += _bars(group, _LEFT + step * (k + 0.5), scale)
     title = "Movement map: score of each variable [deg], left red, right blue; dashes: 1 sd of normal walks"
-    return Drawing("movement_map", title, svg.drawing(_WIDTH, bottom + 34, parts, title))
+    return Drawing("movement_map", title, svg.drawing(_WIDTH, _BOTTOM + 34, parts, title))
+
+
+class _Group(NamedTuple):
+    """A variable: its name, the scores of left and right, the usual one [deg]; NaN where it is not known."""
+
+    name: str
+    scores: list[float]
+    usual: float
+
+    @classmethod
+    def of(cls, found: GaitProfile, angle: ClinicalAngle) -> _Group:
+        """A variable of a profile."""
+        scores = [float(np.degrees(found.variables.get((side, angle), math.nan))) for side in SIDES]
+        curve = found.band.curves.get(angle)
+        usual = math.nan if curve is None else float(np.degrees(np.sqrt(np.mean(curve.sd**2))))
+        return cls(angle.replace("_", " "), scores, usual)
+
+
+class _Scale(NamedTuple):
+    """The vertical axis, from 0 to `top` [deg]."""
+
+    top: float
+
+    def up(self, degrees: float) -> float:
+        """Where a score stands in the picture [px]."""
+        return float(_BOTTOM - _HEIGHT * degrees / self.top)
+
+    def grid(self) -> list[str]:
+        """Lines across, with their numbers."""
+        parts = []
+        for y in ticks(0.0, self.top, 5):
+            at = self.up(y)
+            parts.append(svg.line([[_LEFT, at], [_WIDTH, at]], svg.FAINT, stroke_width=0.8))
+            parts.append(
+                svg.text(_LEFT - 5, at + 3.5, f"{y:g}", text_anchor="end", font_size=10, fill=svg.GREY)
+            )
+        return parts
+
+
+def _bars(group: _Group, middle: float, scale: _Scale) -> list[str]:
+    """Two bars, the dash of the usual score, the name below."""
+    parts = []
+    for s, (side, degrees) in enumerate(zip(SIDES, group.scores, strict=True)):
+        parts += _bar(middle + (s - 1) * (_BAR + 2) + 1, degrees, side, scale)
+    if not math.isnan(group.usual):
+        at, ends = scale.up(group.usual), (middle - _BAR - 5, middle + _BAR + 5)
+        dash = {"stroke_width": 1.2, "stroke_dasharray": "3 2"}
+        parts.append(svg.line([[ends[0], at], [ends[1], at]], svg.INK, **dash))
+    for line, word in enumerate(group.name.split(" ", 1)):
+        parts.append(svg.text(middle, _BOTTOM + 13 + 12 * line, word, text_anchor="middle", font_size=10.5))
+    return parts
+
+
+def _bar(x: float, degrees: float, side: Side, scale: _Scale) -> list[str]:
+    """A bar with its number above; a dash where it is not known."""
+    if math.isnan(degrees):
+        return [svg.text(x + _BAR / 2, _BOTTOM - 4, "-", text_anchor="middle", fill=svg.GREY)]
+    top = scale.up(degrees)
+    halo = {"paint_order": "stroke", "stroke": "#fff", "stroke_width": 2.5}
+    return [
+        svg.tag("rect", x=x, y=top, width=_BAR, height=_BOTTOM - top, fill=svg.SIDE_COLOURS[side]),
+        svg.text(x + _BAR / 2, top - 3, f"{degrees:.1f}", text_anchor="middle", font_size=10, **halo),
+    ]
