@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import io
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from exo_pin import dh
 from exo_pin.anatomy import FEET, JOINTS
-from exo_pin.arguments import real
+from exo_pin.arguments import names, real, word
 from exo_pin.arrays import Array
 from exo_pin.errors import DescriptionError
 from exo_pin.kinematics import poses
@@ -29,19 +29,26 @@ _GRID = 6
 1e-8 rad."""
 
 
-def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
+Witness = Literal["recursion", "dh", "yourdfpy"]
+
+
+def forward(
+    robot: Robot, q: npt.ArrayLike, *, witnesses: Sequence[Witness] = get_args(Witness)
+) -> dict[str, float]:
     """Largest difference to Pinocchio of each witness: positions [m] and rotation matrices' entries.
 
     Args:
         robot: A robot made from a `Body`.
         q: Configurations (n, nq) [rad]; at most 200 of them, evenly chosen and rounded to
             a microradian, are given to yourdfpy.
+        witnesses: Those that are asked; yourdfpy alone takes a second.
 
     Returns:
         `recursion`, `dh` and, where it is installed, `yourdfpy`: over every joint's link, locked joints
         too, and both feet.
 
     Raises:
+        UnknownNameError: There is no such witness.
         DescriptionError: The robot is not an exoskeleton of this package, the shape of q does not fit, or a
             number is not finite.
     """
@@ -50,6 +57,7 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
     q = real("q", q, ("n", robot.nq))
     if not len(q):
         raise DescriptionError("q holds no configuration")
+    wanted = [word("witness", name, get_args(Witness)) for name in names("witnesses", witnesses)]
     few = q[np.unique(np.linspace(0, len(q) - 1, _SAMPLES).astype(int))]
     body, order = robot.body, robot.hip_order
 
@@ -57,27 +65,31 @@ def forward(robot: Robot, q: npt.ArrayLike) -> dict[str, float]:
         angles = dict(zip(robot.joints, robot.angles(q).T, strict=True))
         return dh.of_device(body, angles, hip_order=order, witness=witness)
 
-    witnesses: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
+    known: dict[str, tuple[Array, Callable[[Array], dict[str, Array]]]] = {
         "recursion": (q, lambda q: by(dh.recursion, q)),
         "dh": (q, lambda q: by(dh.modified_dh, q)),
+        "yourdfpy": (np.round(few, _GRID), lambda q: _by_scene(robot, q)),
     }
-    with contextlib.suppress(ModuleNotFoundError):
-        import yourdfpy  # 0.5 s, needed here only
-
-        scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
-        witnesses["yourdfpy"] = (np.round(few, _GRID), lambda q: _by_scene(robot, scene, q))
-    return {name: _difference(robot, q, witness(q)) for name, (q, witness) in witnesses.items()}
+    found = {}
+    for name in wanted:
+        samples, witness = known[name]
+        with contextlib.suppress(ModuleNotFoundError):  # yourdfpy is optional
+            found[name] = _difference(robot, samples, witness(samples))
+    return found
 
 
 def _difference(robot: Robot, q: Array, poses_of: dict[str, Array]) -> float:
     """Largest difference in any entry of any pose relative to the pelvis (or to the stand of its slides)."""
-    names = tuple(poses_of)
-    ours = poses(robot, q, names, base=np.eye(4))
-    return float(max(np.abs(poses_of[name] - ours[:, k]).max() for k, name in enumerate(names)))
+    links = tuple(poses_of)
+    ours = poses(robot, q, links, base=np.eye(4))
+    return float(max(np.abs(poses_of[link] - ours[:, k]).max() for k, link in enumerate(links)))
 
 
-def _by_scene(robot: Robot, scene: Any, q: Array) -> dict[str, Array]:
+def _by_scene(robot: Robot, q: Array) -> dict[str, Array]:
     """Poses by yourdfpy, an independent reader of the same URDF."""
+    import yourdfpy  # 0.5 s, needed here only
+
+    scene = yourdfpy.URDF.load(io.BytesIO(robot.urdf.encode()), load_meshes=False)
     links = {joint: scene.joint_map[joint].child for joint in (*robot.joints, *JOINTS)}
     links |= {foot: foot for foot in FEET}
     out = {name: np.empty((len(q), 4, 4)) for name in links}

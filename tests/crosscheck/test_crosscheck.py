@@ -7,7 +7,7 @@ import pytest
 
 from exo_pin import crosscheck
 from exo_pin.anatomy import JOINTS, Body
-from exo_pin.errors import DescriptionError
+from exo_pin.errors import DescriptionError, UnknownNameError
 from exo_pin.formats import load_gait
 from exo_pin.gait import SPEEDS, normative_gait
 from exo_pin.robot import load_robot, load_urdf
@@ -76,3 +76,10 @@ def test_a_wrong_branch_that_reaches_the_feet_is_not_ok():
 def test_only_our_own_robots_have_a_witness():
     with pytest.raises(DescriptionError, match="load_robot"):
         crosscheck.forward(load_urdf(ROBOT.urdf), np.zeros((1, 12)))
+
+
+def test_one_witness_alone_can_be_asked(robot):
+    q = np.zeros((3, 12))
+    assert crosscheck.forward(robot, q, witnesses=("dh",)) == {"dh": crosscheck.forward(robot, q)["dh"]}
+    with pytest.raises(UnknownNameError):
+        crosscheck.forward(robot, q, witnesses=("matlab",))

@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     body, order = options.body_from(args), args.hip_order
     robot = load_robot(body, hip_order=order)
     random = np.random.default_rng(0).uniform(robot.lower, robot.upper, (1000, len(robot.joints)))
-    difference = crosscheck.forward(robot, random)["dh"]
+    difference = crosscheck.forward(robot, random, witnesses=("dh",))["dh"]
     note = (
         f"modified D-H (Craig), hip order {order}, body {body.stature:g} m; "
         f"T_pelvis_foot = base * rows * tool; largest difference to Pinocchio over 1000 random poses: "
