@@ -166,7 +166,7 @@ def test_the_page_answers_itself_where_python_is_gone(browser, scene):
         browser.evaluate("exo.seek(0.3)")
         browser.evaluate(SETTLED)
     browser.wait("!exo.transport.open")
-    release(browser, *drag_foot(browser, (10, -20)))
+    release(browser, *drag_foot(browser, (5, -10)))
     assert browser.evaluate(STATUS) == "left foot reached"
 
 
