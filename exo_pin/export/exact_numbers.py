@@ -12,28 +12,22 @@ import numpy as np
 
 from exo_pin.safe.xml_reader import parse_xml
 
-_FIELDS: Mapping[str, Mapping[str, str]] = MappingProxyType(
+_FIELDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "body": {"pos": "pos", "quat": "quat"},
-        "joint": {"axis": "axis", "range": "range", "armature": "armature", "damping": "damping"},
-        "geom": {
-            "pos": "pos",
-            "quat": "quat",
-            "size": "size",
-            "friction": "friction",
-            "solref": "solref",
-        },
-        "site": {"pos": "pos", "quat": "quat", "size": "size"},
-        "general": {
-            "ctrlrange": "ctrlrange",
-            "forcerange": "forcerange",
-            "gainprm": "gainprm",
-            "biasprm": "biasprm",
-        },
-        "key": {"qpos": "qpos", "qvel": "qvel", "ctrl": "ctrl"},
+        "body": ("pos", "quat"),
+        "joint": ("axis", "range", "armature", "damping"),
+        "geom": ("pos", "quat", "size", "friction", "solref"),
+        "site": ("pos", "quat", "size"),
+        "general": ("ctrlrange", "forcerange", "gainprm", "biasprm"),
+        "key": ("qpos", "qvel", "ctrl"),
     }
 )
-"""Element -> its attribute in MJCF -> the field of the compiled model."""
+"""Element -> its attributes in MJCF that hold numbers; the compiled model's fields have the same names."""
+
+_INERTIAL: Mapping[str, str] = MappingProxyType(
+    {"pos": "ipos", "quat": "iquat", "mass": "mass", "diaginertia": "inertia"}
+)
+"""Attribute of a body's `<inertial>` -> field of the compiled body."""
 
 _ALWAYS = ("pos", "quat", "qpos")
 """Attributes that are written even where MuJoCo leaves them out for being their default to six digits."""
@@ -49,20 +43,15 @@ def exact_xml(spec: Any) -> str:
     root = parse_xml(spec.to_xml(), Path(f"{spec.modelname}.xml"))
     for element in root.iter():
         name = element.get("name")
-        if element.tag == "inertial" or name is None or element.tag not in _FIELDS:
+        if name is None or element.tag not in _FIELDS:
             continue
         compiled = _compiled(model, element.tag, name)
-        _write(element, compiled, _FIELDS[element.tag])
-        inertial = element.find("inertial") if element.tag == "body" else None
+        _write(element, compiled, {field: field for field in _FIELDS[element.tag]})
+        inertial = element.find("inertial")
         if inertial is not None:
             _write(inertial, compiled, _INERTIAL)
     indent(root)
     return tostring(root, encoding="unicode") + "\n"
-
-
-_INERTIAL: Mapping[str, str] = MappingProxyType(
-    {"pos": "ipos", "quat": "iquat", "mass": "mass", "diaginertia": "inertia"}
-)
 
 
 def _compiled(model: Any, tag: str, name: str) -> Any:

@@ -136,24 +136,12 @@ def _add_light(spec: Any) -> None:
         xyaxes=[0.92, 0.39, 0.0, -0.04, 0.10, 1.0],
     )
     kind, drawn = mujoco.mjtTexture, mujoco.mjtBuiltin
-    spec.add_texture(
-        name="squares",
-        type=kind.mjTEXTURE_2D,
-        builtin=drawn.mjBUILTIN_CHECKER,
-        width=256,
-        height=256,
-        rgb1=[0.90, 0.91, 0.93],
-        rgb2=[0.82, 0.84, 0.87],
-    )
-    spec.add_texture(
-        name="sky",
-        type=kind.mjTEXTURE_SKYBOX,
-        builtin=drawn.mjBUILTIN_GRADIENT,
-        width=256,
-        height=1536,
-        rgb1=[0.96, 0.97, 0.98],
-        rgb2=[0.80, 0.85, 0.90],
-    )
+    light, dark = [0.90, 0.91, 0.93], [0.82, 0.84, 0.87]
+    squares = {"type": kind.mjTEXTURE_2D, "builtin": drawn.mjBUILTIN_CHECKER, "height": 256}
+    spec.add_texture(name="squares", width=256, rgb1=light, rgb2=dark, **squares)
+    high, low = [0.96, 0.97, 0.98], [0.80, 0.85, 0.90]
+    sky = {"type": kind.mjTEXTURE_SKYBOX, "builtin": drawn.mjBUILTIN_GRADIENT, "height": 1536}
+    spec.add_texture(name="sky", width=256, rgb1=high, rgb2=low, **sky)
     floor = spec.add_material(name="squares", texrepeat=[1, 1], texuniform=True)
     floor.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "squares"
     spec.geom("floor").material = "squares"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Literal, get_args
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -129,8 +128,7 @@ def _add_joints(model: Element, urdf: Element, root: str, origin: Array, preset:
 def _add_motors(model: Element, robot: Robot) -> None:
     """A torque for each driven joint, whose control of 1 is the motor's largest."""
     objects = SubElement(SubElement(model, "ForceSet", name="forceset"), "objects")
-    driven: Iterable[tuple[str, float]] = zip(robot.joints, robot.effort.tolist(), strict=True)
-    for name, effort in driven:
+    for name, effort in zip(robot.joints, robot.effort.tolist(), strict=True):
         if effort > 0.0:
             motor = SubElement(objects, "CoordinateActuator", name=f"{name}_motor")
             add_text(motor, "min_control", "-1")

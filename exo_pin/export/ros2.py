@@ -18,7 +18,7 @@ from exo_pin.export.ros2_control import Drive, control_xacro, controllers, drive
 from exo_pin.files import write_text
 from exo_pin.formats.trajectory_writer import yaml_message
 from exo_pin.gait import Gait
-from exo_pin.gait.time_series import derivative
+from exo_pin.kinematics import joint_rates
 from exo_pin.robot import Robot
 from exo_pin.version import __version__
 
@@ -134,8 +134,7 @@ def _xacro_files(robot: Robot) -> dict[str, str]:
 def _trajectory(robot: Robot, gait: Gait, driven: list[Drive]) -> str:
     """The driven joints along the walk, as a JointTrajectory message."""
     columns = [robot.joints.index(drive.name) for drive in driven]
-    q = robot.angles(robot.from_gait(gait))[:, columns]
-    period = gait.duration if gait.periodic else None
-    rates = [derivative(gait.time, q, order, period) for order in (1, 2)]
+    rates = joint_rates(robot, gait, cutoff=None)
+    motion = [x[:, columns] for x in (robot.angles(robot.from_gait(gait)), rates.dq, rates.ddq)]
     start = np.asarray(gait.time - gait.time[0]).tolist()
-    return yaml_message([drive.name for drive in driven], start, [q, *rates], [f"# {_one_line(gait.source)}"])
+    return yaml_message([drive.name for drive in driven], start, motion, [f"# {_one_line(gait.source)}"])
