@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from exo_pin.arrays import Array
 from exo_pin.crosscheck.random_states import States
 from exo_pin.dh import Link, chain
 from exo_pin.dh.moving_links import PELVIS, links_with_toes, moving_masses
+from exo_pin.formats.opensim.pelvis_axes import body_fixed_xyz
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
 
@@ -87,7 +88,7 @@ def _solved(built: _Model, one: States) -> Array:
     opensim, state = built.opensim, built.state
     matter = built.model.getMatterSubsystem()
     q, u, du = (np.zeros(state.getNQ()), np.zeros(state.getNU()), np.zeros(state.getNU()))
-    q[:3], q[3:_FREE] = _body_fixed_xyz(one.base[:3, :3]), one.base[:3, 3]
+    q[:3], q[3:_FREE] = body_fixed_xyz(one.base[:3, :3]), one.base[:3, 3]
     q[np.array(built.columns) + 1] = one.q  # behind seven places for the pelvis, of which angles use six
     for values, pelvis, joints in ((u, one.velocity, one.dq), (du, one.acceleration, one.ddq)):
         values[:3], values[3:_FREE] = pelvis[3:], pelvis[:3]  # rotations first
@@ -122,12 +123,6 @@ def _applied(built: _Model, wrench: Array) -> Any:
         both = opensim.SpatialVec(_vec3(opensim, moment), _vec3(opensim, force))
         forces.set(body.getMobilizedBodyIndex(), both)
     return forces
-
-
-def _body_fixed_xyz(R: Array) -> Sequence[float]:
-    """Angles about x, the new y and the new z [rad] that make up a rotation."""
-    y = np.arcsin(np.clip(R[0, 2], -1.0, 1.0))
-    return [np.arctan2(-R[1, 2], R[2, 2]), y, np.arctan2(-R[0, 1], R[0, 0])]
 
 
 def _vec3(opensim: Any, values: Array) -> Any:

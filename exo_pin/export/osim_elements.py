@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement
 
-import numpy as np
-
 from exo_pin.arrays import Array
 
 
@@ -35,11 +33,3 @@ def add_pose_frame(element: Element, name: str, parent: str, place: Array, angle
     add_text(frame, "translation", triple(place))
     add_text(frame, "orientation", triple(angles))
     return frame
-
-
-def body_fixed_xyz(R: Array) -> Array:
-    """Angles (3,) about x, the new y and the new z that make up a rotation (3, 3) [rad]."""
-    y = np.arcsin(np.clip(R[0, 2], -1.0, 1.0))
-    if abs(R[0, 2]) > 1.0 - 1e-12:  # x and z turn about one line: all of it is given to x
-        return np.array([np.arctan2(R[2, 1], R[1, 1]), y, 0.0])
-    return np.array([np.arctan2(-R[1, 2], R[2, 2]), y, np.arctan2(-R[0, 1], R[0, 0])])

@@ -8,8 +8,13 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from exo_pin.arrays import Array
-from exo_pin.export.osim_elements import add_pose_frame, add_text, body_fixed_xyz, triple
-from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM, PELVIS_ROTATIONS, PELVIS_TRANSLATIONS
+from exo_pin.export.osim_elements import add_pose_frame, add_text, triple
+from exo_pin.formats.opensim.pelvis_axes import (
+    FROM_OPENSIM,
+    PELVIS_ROTATIONS,
+    PELVIS_TRANSLATIONS,
+    body_fixed_xyz,
+)
 from exo_pin.robot import urdf_elements
 
 _STILL = np.zeros(3)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element, SubElement
 
 from exo_pin.arrays import Array
-from exo_pin.export.osim_elements import add_pose_frame, add_text, body_fixed_xyz, triple
-from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM
+from exo_pin.export.osim_elements import add_pose_frame, add_text, triple
+from exo_pin.formats.opensim.pelvis_axes import FROM_OPENSIM, body_fixed_xyz
 from exo_pin.robot import urdf_elements
 
 

@@ -1,4 +1,4 @@
-"""Pelvis coordinates of OpenSim (x forward, y up, z right) and pelvis poses with z up."""
+"""Pelvis coordinates of OpenSim (x forward, y up, z right), poses with z up, rotations as angles."""
 
 from __future__ import annotations
 
@@ -69,3 +69,11 @@ def zxy(R: Array) -> Array:
     second = np.arctan2(R[:, 2, 1], np.hypot(R[:, 0, 1], R[:, 1, 1]))
     third = np.arctan2(-R[:, 2, 0], R[:, 2, 2])
     return np.unwrap(np.stack([first, second, third], axis=1), axis=0)
+
+
+def body_fixed_xyz(R: Array) -> Array:
+    """Angles (3,) about x, the new y and the new z that make up a rotation (3, 3) [rad]."""
+    y = np.arcsin(np.clip(R[0, 2], -1.0, 1.0))
+    if abs(R[0, 2]) > 1.0 - 1e-12:  # x and z turn about one line: all of it is given to x
+        return np.array([np.arctan2(R[2, 1], R[1, 1]), y, 0.0])
+    return np.array([np.arctan2(-R[1, 2], R[2, 2]), y, np.arctan2(-R[0, 1], R[0, 0])])
