@@ -11,7 +11,8 @@ from exo_pin.arguments import number, real
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait
 from exo_pin.gait.rigid_poses import in_own_axes, nearest_pose
-from exo_pin.kinematics import joint_rates, smoothed_curves
+from exo_pin.kinematics import smoothed_curves
+from exo_pin.kinematics.gait_motion import gait_motion
 from exo_pin.robot import Robot
 from exo_pin.short_repr import short_repr
 from exo_pin.signals import CUTOFF
@@ -58,18 +59,9 @@ def motion(robot: Robot, gait: Gait, *, cutoff: float | None = CUTOFF) -> Motion
     if cutoff is not None:
         number("cutoff", cutoff, above=0.0)
     walk, how = _smoothed(gait, cutoff)
-    rates = joint_rates(robot, walk, cutoff=None)
     assert walk.base is not None
-    assert walk.base_velocity is not None
-    assert walk.base_acceleration is not None
-    velocity, acceleration = in_pelvis_axes(walk.base, walk.base_velocity, walk.base_acceleration)
-    return Motion(
-        q=robot.from_gait(walk),
-        v=np.hstack([velocity, rates.dq]),
-        a=np.hstack([acceleration, rates.ddq]),
-        base=walk.base,
-        how=how,
-    )
+    moving = gait_motion(robot, walk)
+    return Motion(q=moving.q, v=moving.dq, a=moving.ddq, base=walk.base, how=how)
 
 
 def in_pelvis_axes(T: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
