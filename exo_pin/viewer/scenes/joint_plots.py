@@ -14,6 +14,7 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.arrays import Array
 from exo_pin.gait import Gait, Torques, time_series
 from exo_pin.robot import Robot
+from exo_pin.robot.gait_columns import in_joint_order
 from exo_pin.viewer.scenes.scene import Plot, PlotGroup, PlotSide, Series
 
 _FIRST = ("hip_flexion", "knee_flexion", "ankle_dorsiflexion")
@@ -122,13 +123,11 @@ def of_gait(
     """
     if not set(JOINTS) <= set(robot.joints):
         gait = robot.to_gait(robot.from_gait(gait), gait)
-    lower, upper = (
-        in_clinical_order(robot, robot.lower, -np.inf),
-        in_clinical_order(robot, robot.upper, np.inf),
-    )
-    speed, effort = (
-        in_clinical_order(robot, robot.velocity, np.inf),
-        in_clinical_order(robot, robot.effort, np.inf),
+    joints = robot.joints
+    lower = in_joint_order(joints, robot.lower, missing=-np.inf)
+    upper, speed, effort = (
+        in_joint_order(joints, limits, missing=np.inf)
+        for limits in (robot.upper, robot.velocity, robot.effort)
     )
     angles, speeds, time = None, None, None
     if reference is not None:
@@ -208,18 +207,6 @@ def pairs(joints: Sequence[str]) -> dict[str, dict[PlotSide, int]]:
         movement = joint if match is None else (joint[: match.start()] + joint[match.end() :]).strip("_")
         found.setdefault(movement.replace("__", "_"), {})[side] = column
     return {name: found[name] for name in (*_FIRST, *found) if name in found}
-
-
-def in_clinical_order(robot: Robot, limits: Array, missing: float) -> Array:
-    """`(12,)` limits in the order of `JOINTS`.
-
-    Args:
-        robot: Whose limits.
-        limits: `(J,)` in the order of its own joints.
-        missing: Value for a joint that it lacks.
-    """
-    own = dict(zip(robot.joints, limits, strict=True))
-    return np.array([own.get(joint, missing) for joint in JOINTS])
 
 
 def _is_revolute(robot: Robot, joint: str) -> bool:

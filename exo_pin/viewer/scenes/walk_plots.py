@@ -11,7 +11,8 @@ from exo_pin.anatomy import JOINTS, MOVEMENTS
 from exo_pin.arrays import Array
 from exo_pin.ground import PlacedWalk
 from exo_pin.robot import Robot
-from exo_pin.viewer.scenes.joint_plots import DEGREES, NEWTON_METRES, Tab, Unit, in_clinical_order, pairs
+from exo_pin.robot.gait_columns import in_joint_order
+from exo_pin.viewer.scenes.joint_plots import DEGREES, NEWTON_METRES, Tab, Unit, pairs
 from exo_pin.viewer.scenes.kinetics import Kinetics
 
 _NEWTONS = Unit("N", 1.0, 0, 100.0)
@@ -52,7 +53,7 @@ def of_kinetics(robot: Robot, kinetics: Kinetics) -> tuple[Tab, ...]:
         kinetics: On the samples of the walk.
     """
     forces, effort = kinetics.loads(), kinetics.effort
-    limit = in_clinical_order(robot, robot.effort, np.inf)
+    limit = in_joint_order(robot.joints, robot.effort, missing=np.inf)
     sides = {name.removeprefix("left_"): "to the left" for name in forces if "sideways" in name}
     loads = _tab("Forces", "forces", forces, dict.fromkeys(forces, _NEWTONS), sides)
     torques = _joints("Torques", "torques", kinetics.torque, NEWTON_METRES, limit)
