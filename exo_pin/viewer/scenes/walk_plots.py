@@ -33,11 +33,7 @@ def pelvis(walk: PlacedWalk) -> Tab:
     units, signs = dict.fromkeys(columns, DEGREES), dict(zip(columns, _TURNS, strict=True))
     paths = {"pelvis": walk.base[:, :3, 3]} | ({} if walk.com is None else {"centre_of_mass": walk.com})
     for name, path in paths.items():
-        for axis, way, sign in (
-            (2, "height", ""),
-            (1, "sideways", "to the left"),
-            (0, "fore_and_aft", "forward"),
-        ):
+        for axis, way, sign in _WAYS:
             if not (walk.support.overground and axis == 0):  # a walk through the room would be a ramp
                 column = f"{name}_{way}"
                 columns[column] = path[:, axis] - path[:, axis].mean()
