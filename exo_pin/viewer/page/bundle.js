@@ -34,7 +34,7 @@ async function readBundle(zipped) {
   return { header, commands, arrays };
 }
 
-/** The rows of an array as exo_pin/viewer/page/export.py packs them. */
+/** The rows of an array as exo_pin/viewer/page/packing.py packs them. */
 function numbers(bytes, { type, width, middle, step }) {
   if (type === "f8") return new Float64Array(bytes.buffer);
   if (type === "f4") return byRows(new Float32Array(summed(bytes, width, Uint32Array).buffer), width);
