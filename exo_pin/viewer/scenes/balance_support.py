@@ -13,7 +13,6 @@ from exo_pin.viewer.drawing_commands import Command, Material, box, cylinder, dr
 from exo_pin.viewer.meshes.solids import translation
 from exo_pin.viewer.scenes import props
 from exo_pin.viewer.scenes.scene import ROOT, Bar, Box, Group
-from exo_pin.viewer.scenes.world import treadmill
 
 _PATH = f"{ROOT}/balance_support"
 _METAL = Material((0.36, 0.40, 0.45, 1.0), 0.45, 0.25)
@@ -69,7 +68,7 @@ def balance_support(robot: Robot, walk: PlacedWalk, top: float, *, unloads: bool
     """
     if robot.device is None or robot.device.pelvis == "free" or walk.support.overground:
         return None
-    mill = treadmill(walk)
+    mill = props.Treadmill.under(walk)
     at, back = mill.center - mill.length / 2 - _BEHIND, -_RING * _waist(robot) - _BRACKET
     hips = float(walk.base[:, 2, 3].mean())
     high = hips + (top + _ABOVE if unloads else 0.42)

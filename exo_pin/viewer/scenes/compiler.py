@@ -174,7 +174,7 @@ def _compiled(staging: Staging, options: SceneOptions, faced: Iterable[str]) -> 
         bars=() if stand is None else stand.bars,
         forces=None if forces is None else forces.marks,
         keys=(*staging.keys, *(() if forces is None else forces.keys)),
-        boxes=boxes(gait, walk, staging.top) | ({} if stand is None else {"stand": stand.frame}),
+        boxes=boxes(walk, staging.top) | ({} if stand is None else {"stand": stand.frame}),
         follow=walk.support.overground,
         speed=options.speed,
         twins=tuple(pair for actor in actors for pair in actor.twins),

@@ -10,6 +10,7 @@ import numpy as np
 
 from exo_pin.anatomy.names import Side
 from exo_pin.arrays import Array, Index
+from exo_pin.ground import PlacedWalk
 from exo_pin.viewer.drawing_commands import (
     Command,
     Material,
@@ -45,11 +46,9 @@ _STUDIO = {"AmbientLight": 0.12, "PointLightNegativeX": 0.06, "PointLightPositiv
 DECK = 0.118
 """Height of the belt above the floor [m]."""
 
-_TAIL, _HOOD, _BREADTH = (
-    0.2,
-    0.34,
-    0.85,
-)  # of a treadmill: what its rails reach beyond the belt, hood, width [m]
+_TAIL, _HOOD, _BREADTH = 0.2, 0.34, 0.85
+"""Of a treadmill [m]: what its rails reach beyond the belt, length of the hood, width."""
+
 _SLAT = 0.175  # distance of the slats is about this [m]
 _RING = 8  # corners of a tube's cross-section
 
@@ -73,6 +72,18 @@ class Treadmill:
     speed: float
     period: float
     aside: float = 0.0
+
+    @classmethod
+    def under(cls, walk: PlacedWalk, period: float = 1.0) -> Treadmill:
+        """The treadmill under a walk on the spot.
+
+        Args:
+            walk: The walk on its ground.
+            period: In which its belt moves on by whole slats [s].
+        """
+        low, high = float(walk.corners[..., 0].min()), float(walk.corners[..., 0].max())
+        length = max(high - low + 0.75, 1.5)
+        return cls((low + high) / 2 + 0.05, length, 0.0, walk.support.belt_speed, period)
 
     @property
     def pitch(self) -> float:

@@ -48,7 +48,7 @@ def world(
     commands = props.studio()
     belt, ground = None, 0.0
     if not walk.support.overground:
-        mill = treadmill(walk, gait.duration)
+        mill = props.Treadmill.under(walk, gait.duration)
         mills = {f"{ROOT}/treadmill": mill} | ({SECOND: replace(mill, aside=ASIDE)} if ghost else {})
         commands += [command for path, each in mills.items() for command in props.treadmill(path, each)]
         belt, ground = props.belt(tuple(mills), mill), -props.DECK
@@ -64,11 +64,10 @@ def world(
     return commands, Marks(f"{ROOT}/marks/com/ball", f"{ROOT}/marks/com/disc", 0.003, contact, belt)
 
 
-def boxes(gait: Gait, walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
+def boxes(walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
     """What the cameras frame: the whole figure, the feet, and the treadmill if there is one.
 
     Args:
-        gait: The walk's duration.
         walk: The walk on its ground.
         above_hips: How far the figure reaches above the hips [m].
     """
@@ -82,20 +81,9 @@ def boxes(gait: Gait, walk: PlacedWalk, above_hips: float) -> dict[str, Box]:
         "whole": Box((middle, y, (bottom + top) / 2), (high - low, 0.75, top - bottom)),
         "feet": Box((middle, y, 0.12), (high - low, 0.6, 0.4)),
     }
-    mill = None if walk.support.overground else props.frame(treadmill(walk, gait.duration))
-    return found if mill is None else found | {"treadmill": mill}
-
-
-def treadmill(walk: PlacedWalk, period: float = 1.0) -> props.Treadmill:
-    """The treadmill under a walk on the spot.
-
-    Args:
-        walk: The walk on its ground.
-        period: In which its belt moves on by whole slats [s].
-    """
-    low, high = float(walk.corners[..., 0].min()), float(walk.corners[..., 0].max())
-    length = max(high - low + 0.75, 1.5)
-    return props.Treadmill((low + high) / 2 + 0.05, length, 0.0, walk.support.belt_speed, period)
+    if walk.support.overground:
+        return found
+    return found | {"treadmill": props.frame(props.Treadmill.under(walk))}
 
 
 def _thinned(points: Array) -> Array:
