@@ -1,4 +1,4 @@
-"""`Actor`: a figure that the page poses, with its drawings and samples."""
+"""`Actor`: a figure that the page poses, with its drawings and samples; a stand and forces likewise."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from exo_pin.arrays import Array
 from exo_pin.robot.floating_base import base_coordinates
 from exo_pin.viewer.drawing_commands import Command, Material
-from exo_pin.viewer.scenes.scene import Chain, Group
+from exo_pin.viewer.scenes.scene import Bar, Box, Chain, ForceMarks, Group, Key
 
 GHOST = Material((0.36, 0.30, 0.55, 0.30), 0.6, 0.0, more=(("depthWrite", False),))
 """A second walk is a translucent violet: neither leg's colour."""
@@ -52,6 +52,40 @@ class Mount:
     T: Array
     size: tuple[float, float]
     center: tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnSupport:
+    """A balance support.
+
+    Attributes:
+        commands: What draws its still parts and its bars.
+        bars: What reaches from it to the pelvis.
+        group: What switches it on and off.
+        frame: What a camera has to frame.
+    """
+
+    commands: tuple[Command, ...]
+    bars: tuple[Bar, ...]
+    group: Group
+    frame: Box
+
+
+@dataclass(frozen=True, eq=False)
+class ShownForces:
+    """Forces as the page draws them.
+
+    Attributes:
+        marks: What moves, by which samples.
+        arrays: The samples.
+        groups: What can be switched off.
+        keys: Entries of the legend.
+    """
+
+    marks: ForceMarks
+    arrays: Mapping[str, Array]
+    groups: tuple[Group, ...]
+    keys: tuple[Key, ...]
 
 
 def chain_samples(chain: Chain, angles: Mapping[str, Array], base: Array) -> dict[str, Array]:

@@ -5,13 +5,12 @@ An illustration: what a device's stand looks like is in no record. The bars end 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from exo_pin.ground import PlacedWalk
 from exo_pin.robot import Robot
 from exo_pin.viewer.drawing_commands import Command, Material, box, cylinder, draw, place
 from exo_pin.viewer.meshes.solids import translation
 from exo_pin.viewer.scenes import props
+from exo_pin.viewer.scenes.actor import DrawnSupport
 from exo_pin.viewer.scenes.scene import ROOT, Bar, Box, Group
 
 _PATH = f"{ROOT}/balance_support"
@@ -38,23 +37,6 @@ _SHOULDERS = 0.32
 
 _ABOVE = 0.16
 """The boom lies so high above the top of the figure [m]."""
-
-
-@dataclass(frozen=True, eq=False)
-class DrawnSupport:
-    """A balance support.
-
-    Attributes:
-        commands: What draws its still parts and its bars.
-        bars: What reaches from it to the pelvis.
-        group: What switches it on and off.
-        frame: What a camera has to frame.
-    """
-
-    commands: tuple[Command, ...]
-    bars: tuple[Bar, ...]
-    group: Group
-    frame: Box
 
 
 def balance_support(robot: Robot, walk: PlacedWalk, top: float, *, unloads: bool) -> DrawnSupport | None:

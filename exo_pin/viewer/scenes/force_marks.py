@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from exo_pin.anatomy import JOINTS, SIDES
 from exo_pin.arrays import Array
 from exo_pin.ground import PlacedWalk
 from exo_pin.viewer.meshes.solids import Solid
+from exo_pin.viewer.scenes.actor import ShownForces
 from exo_pin.viewer.scenes.kinetics import Kinetics, Origin
 from exo_pin.viewer.scenes.link_nodes import Linkage
 from exo_pin.viewer.scenes.pendulum_mark import pendulum_mark
@@ -55,23 +55,6 @@ _HINTS: Mapping[Origin, str] = {
     "planned": "None: the ground alone carries a planned walk.",
     "simulated": "Of the balance support on the pelvis.",
 }
-
-
-@dataclass(frozen=True, eq=False)
-class ShownForces:
-    """Forces as the page draws them.
-
-    Attributes:
-        marks: What moves, by which samples.
-        arrays: The samples.
-        groups: What can be switched off.
-        keys: Entries of the legend.
-    """
-
-    marks: ForceMarks
-    arrays: Mapping[str, Array]
-    groups: tuple[Group, ...]
-    keys: tuple[Key, ...]
 
 
 def shown_forces(kinetics: Kinetics, walk: PlacedWalk, tree: Linkage) -> ShownForces:

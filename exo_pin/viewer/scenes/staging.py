@@ -10,9 +10,7 @@ from exo_pin.gait import Gait
 from exo_pin.ground import STYLES, PlacedWalk
 from exo_pin.robot import Robot
 from exo_pin.short_repr import short_repr
-from exo_pin.viewer.scenes.actor import Actor, Mount
-from exo_pin.viewer.scenes.balance_support import DrawnSupport
-from exo_pin.viewer.scenes.force_marks import ShownForces
+from exo_pin.viewer.scenes.actor import Actor, DrawnSupport, Mount, ShownForces
 from exo_pin.viewer.scenes.joint_plots import Tab
 from exo_pin.viewer.scenes.scene import Handle, Key
 
