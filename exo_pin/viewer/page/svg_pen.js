@@ -5,7 +5,6 @@ class SvgPen {
     this.text = "";
     this.path = "";
     this.depth = []; // groups that each `save` has open
-    this.clips = 0;
     Object.assign(this, { fillStyle: "#000", strokeStyle: "#000", lineWidth: 1, globalAlpha: 1, textAlign: "left" });
     this.font = "";
     this.dash = [];
@@ -38,7 +37,7 @@ class SvgPen {
   }
 
   rect(x, y, width, height) {
-    this.path += `M${short(x)} ${short(y)}h${short(width)}v${short(height)}h${short(-width)}z`;
+    this.path += rectangle(x, y, width, height);
   }
 
   stroke() {
@@ -52,8 +51,7 @@ class SvgPen {
   }
 
   fillRect(x, y, width, height) {
-    const path = `M${short(x)} ${short(y)}h${short(width)}v${short(height)}h${short(-width)}z`;
-    this.text += `<path d="${path}" fill="${this.fillStyle}" opacity="${this.globalAlpha}"/>`;
+    this.text += `<path d="${rectangle(x, y, width, height)}" fill="${this.fillStyle}" opacity="${this.globalAlpha}"/>`;
   }
 
   setLineDash(dash) {
@@ -73,6 +71,10 @@ class SvgPen {
 }
 
 SvgPen.count = 0;
+
+function rectangle(x, y, width, height) {
+  return `M${short(x)} ${short(y)}h${short(width)}v${short(height)}h${short(-width)}z`;
+}
 
 function short(value) {
   return Number(value.toFixed(2));
