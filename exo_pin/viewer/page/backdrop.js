@@ -6,9 +6,8 @@ const FINE = 2; // more samples than this for a pixel are drawn as their lowest 
 
 class Backdrop {
   constructor(plot, colors) {
-    Object.assign(this, { spec: plot.spec, source: plot.source, motion: plot.motion, window: plot.window });
-    this.plot = plot;
-    Object.assign(this, { x: plot.x, y: plot.y, unit: plot.unit, colors });
+    const { spec, source, motion, window, showsBand, x, y, unit } = plot;
+    Object.assign(this, { spec, source, motion, window, showsBand, x, y, unit, colors });
   }
 
   paint(pen) {
@@ -25,7 +24,7 @@ class Backdrop {
     pen.rect(x.from, y.to, x.to - x.from, y.from - y.to);
     pen.clip();
     this.strikes(pen);
-    if (this.plot.showsBand) for (const series of spec.series) this.band(pen, series);
+    if (this.showsBand) for (const series of spec.series) this.band(pen, series);
     for (const series of spec.series) this.limits(pen, series);
     for (const series of spec.series) this.curve(pen, this.source.compared, series, DOTS);
     for (const series of spec.series) this.curve(pen, this.source.reference, series, DASH);

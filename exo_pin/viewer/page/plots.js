@@ -18,10 +18,10 @@ class Plots {
     this.stretch = document.getElementById("stretch");
     document.getElementById("narrower").onclick = () => this.zoom(1 / STEP);
     document.getElementById("wider").onclick = () => this.zoom(STEP);
-    this.showsBand = true;
-    document.getElementById("band").onchange = (event) => {
-      this.showsBand = event.target.checked;
-      this.choose(this.groups.indexOf(this.group));
+    this.band = document.getElementById("band");
+    this.band.onchange = () => {
+      this.showBand();
+      this.moved();
     };
     document.getElementById("whole").onclick = () => this.toggleWhole();
   }
@@ -62,9 +62,14 @@ class Plots {
     document.getElementById("banded").hidden = !group.low;
     this.group = group;
     this.plots = group.plots.map((spec) => new Plot(spec, this.motion, group, this.window, this.holder));
-    for (const plot of this.plots) plot.showsBand = this.showsBand;
+    this.showBand();
     for (const plot of this.plots) this.listen(plot);
     this.resize();
+  }
+
+  /** Tells the plots whether the normal band is wanted. */
+  showBand() {
+    for (const plot of this.plots) plot.showsBand = this.band.checked;
   }
 
   listen(plot) {
