@@ -52,9 +52,8 @@ function plotsSvg({ plots }) {
 }
 
 function wireTaking(player) {
-  const { plots } = player;
+  const { plots, part } = player;
   const name = (ending) => fileName(`${player.header.title} ${plots.group.title}`, ending);
-  const part = (id) => document.getElementById(id);
   part("csv").onclick = () => save(new Blob([tableText(tableOf(plots), ",")], { type: "text/csv" }), name("csv"));
   part("plots-png").onclick = () => plotsCanvas(plots).toBlob((blob) => save(blob, name("png")), "image/png");
   part("plots-svg").onclick = () => save(new Blob([plotsSvg(plots)], { type: "image/svg+xml" }), name("svg"));
