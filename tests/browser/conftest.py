@@ -45,10 +45,28 @@ def scene(robot, gait):
 
 
 @pytest.fixture(scope="session")
-def file(scene, tmp_path_factory):
-    path = tmp_path_factory.mktemp("page") / "walk.html"
-    path.write_text(viewer.html(scene), "utf-8")
-    return path.as_uri()
+def saved(tmp_path_factory):
+    """Saves the page of a scene and returns its address."""
+
+    def save(scene):
+        path = tmp_path_factory.mktemp("page") / "walk.html"
+        path.write_text(viewer.html(scene), "utf-8")
+        return path.as_uri()
+
+    return save
+
+
+@pytest.fixture(scope="session")
+def file(scene, saved):
+    return saved(scene)
+
+
+@pytest.fixture(scope="module")
+def opened(browser, address):
+    """The page at a module's own address, loaded once."""
+    browser.resize(1000, 680)
+    browser.open(address)
+    return browser
 
 
 @pytest.fixture

@@ -19,18 +19,9 @@ def found(robot, gait):
 
 
 @pytest.fixture(scope="module")
-def address(robot, gait, found, tmp_path_factory):
-    scene = viewer.scene(robot, gait, kinetics=viewer.Kinetics.of_dynamics(found), wearer=False)
-    path = tmp_path_factory.mktemp("forces") / "walk.html"
-    path.write_text(viewer.html(scene), "utf-8")
-    return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def opened(browser, address):
-    browser.resize(1000, 680)
-    browser.open(address)
-    return browser
+def address(robot, gait, found, saved):
+    kinetics = viewer.Kinetics.of_dynamics(found)
+    return saved(viewer.scene(robot, gait, kinetics=kinetics, wearer=False))
 
 
 ARROW = """(k => {{ const {{ group, shaft, head }} = exo.forces.arrows[k];

@@ -27,18 +27,8 @@ def torques(recording):
 
 
 @pytest.fixture(scope="module")
-def address(robot, recording, torques, tmp_path_factory):
-    scene = viewer.scene(robot, recording, torques=torques, wearer=False)
-    path = tmp_path_factory.mktemp("plots") / "long.html"
-    path.write_text(viewer.html(scene), "utf-8")
-    return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def opened(browser, address):
-    browser.resize(1000, 680)
-    browser.open(address)
-    return browser
+def address(robot, recording, torques, saved):
+    return saved(viewer.scene(robot, recording, torques=torques, wearer=False))
 
 
 @pytest.fixture

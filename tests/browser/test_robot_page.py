@@ -23,11 +23,9 @@ def robot_scene(walk):
 
 
 @pytest.fixture(scope="module")
-def robot_page(browser, robot_scene, tmp_path_factory):
-    path = tmp_path_factory.mktemp("robot") / "robot.html"
-    path.write_text(viewer.html(robot_scene), "utf-8")
+def robot_page(browser, robot_scene, saved):
     browser.resize(1000, 680)
-    browser.open(path.as_uri())
+    browser.open(saved(robot_scene))
     browser.evaluate("exo.seek(0)")
     return browser
 
