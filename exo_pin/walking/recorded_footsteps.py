@@ -13,6 +13,7 @@ from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
 from exo_pin.gait import Gait
 from exo_pin.gait.event import FOOT_FLAT
+from exo_pin.gait.time_series import runs
 from exo_pin.kinematics import poses
 from exo_pin.robot import Robot
 from exo_pin.walking.footsteps import Footstep, Footsteps
@@ -59,14 +60,7 @@ def recorded_footsteps(robot: Robot, gait: Gait, *, clearance: float = 0.05) -> 
 def _stances(gait: Gait, side: Side) -> list[_Stance]:
     """The stances of a foot, those that the recording cuts as far as they are seen."""
     time, down = gait.time, gait.stance(side)
-    edges = np.flatnonzero(np.diff(down.astype(int)))
-    starts = [0, *(edges + 1).tolist()]
-    ends = [*edges.tolist(), len(time) - 1]
-    return [
-        _Stance(float(time[a]), float(time[b]), side)
-        for a, b in zip(starts, ends, strict=True)
-        if down[a] and b > a
-    ]
+    return [_Stance(float(time[a]), float(time[b - 1]), side) for a, b in runs(down) if b - a > 1]
 
 
 def _place(gait: Gait, T: Array, stance: _Stance) -> Footstep:
