@@ -8,7 +8,7 @@ from pathlib import Path
 
 from exo_pin.anatomy import SIDES
 from exo_pin.anatomy.names import Side
-from exo_pin.errors import FormatError, GaitError, naming_file
+from exo_pin.errors import FormatError, naming_file
 from exo_pin.files import read_lines, write_text
 from exo_pin.safe import plain_numbers
 from exo_pin.walking.footsteps import Footstep, Footsteps
@@ -84,7 +84,5 @@ def _footstep(path: Path, number: int, line: str) -> Footstep:
             values.append(plain_numbers.number(cell))
         except ValueError:
             raise FormatError(path, f"{name} is {cell[:40]!r}; expected a number", line=number) from None
-    try:
+    with naming_file(path, line=number):
         return Footstep(side, values[0], values[1], math.radians(values[2]))
-    except GaitError as error:
-        raise FormatError(path, str(error), line=number) from None
