@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exo_pin.anatomy import SIDES
 from exo_pin.arrays import Array
-from exo_pin.simulation.engine_forces import SENSED, SOLES
+from exo_pin.simulation.engine_forces import corner_forces
 
 _LOADED = 1.0
 """Vertical force from which a centre of pressure is given [N]."""
@@ -31,8 +30,7 @@ class FloorForces:
 
 def floor_forces(sensed: Array) -> FloorForces:
     """Sum the contacts of each foot, as MuJoCo's `sensordata` (N, S) of `sensing_model` gives them."""
-    corners = sensed[:, :SOLES].reshape(len(sensed), len(SIDES), -1, SENSED)  # CORNERS: left, then right
-    force, place = corners[..., :3], corners[..., 3:]
+    force, place = corner_forces(sensed)
     total, about = force.sum(axis=2), np.cross(place, force).sum(axis=2)
     point = np.full(total.shape, np.nan)
     loaded = total[..., 2] > _LOADED

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from exo_pin.anatomy import CORNERS
+from exo_pin.anatomy import CORNERS, SIDES
 from exo_pin.arrays import Array
 from exo_pin.robot import Robot
 from exo_pin.simulation.mujoco_model import FLOOR, Floor, compiled, mujoco_spec
 
-SENSED = 6
+_SENSED = 6
 """Numbers that a sole corner's sensor gives: force of the floor and where, world axes."""
 
-SOLES = len(CORNERS) * SENSED
+SOLES = len(CORNERS) * _SENSED
 """Columns of the sole corners in `sensordata`; those of the joint stops follow, in the joints' order."""
 
 _NETFORCE = 3
@@ -58,6 +58,16 @@ def sensing_model(robot: Robot, *, floor: Floor | None = None, timestep: float =
             objname=name,
         )
     return compiled(spec, robot)
+
+
+def corner_forces(sensed: Array) -> tuple[Array, Array]:
+    """Force of the floor at each sole corner, and where it acts, world axes, `(N, 2, 4, 3)` each [N, m].
+
+    Args:
+        sensed: `(N, S)` MuJoCo's `sensordata`.
+    """
+    corners = sensed[:, :SOLES].reshape(len(sensed), len(SIDES), -1, _SENSED)  # CORNERS: left, then right
+    return corners[..., :3], corners[..., 3:]
 
 
 def stop_torques(sensed: Array, angles: Array, robot: Robot) -> Array:

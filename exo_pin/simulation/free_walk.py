@@ -14,7 +14,7 @@ from exo_pin.gait import Gait
 from exo_pin.gait.time_series import runs
 from exo_pin.ground import estimated_stance, lowest_corners, stance_from_events, standing
 from exo_pin.kinematics import poses
-from exo_pin.simulation.engine_forces import SENSED, SOLES
+from exo_pin.simulation.engine_forces import corner_forces
 from exo_pin.simulation.simulated_walk import SimulatedWalk
 from exo_pin.walking import convex_hull, margin
 
@@ -82,8 +82,8 @@ def zmp_margins(gait: Gait, required: Dynamics) -> Array:
 
 def _slip(sensed: Array) -> float:
     """Largest way of a loaded sole [m]."""
-    corners = sensed[:, :SOLES].reshape(len(sensed), len(SIDES), -1, SENSED)
-    force, place = corners[..., 2], corners[..., 3:5]
+    forces, places = corner_forces(sensed)
+    force, place = forces[..., 2], places[..., :2]
     both = np.minimum(force[1:], force[:-1])  # a corner that has just landed has not moved yet
     moved = (both[..., None] * np.diff(place, axis=0)).sum(axis=2) / np.maximum(both.sum(axis=2), 1.0)[
         ..., None
