@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from exo_pin.anatomy import CORNERS, FEET
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Mask
 from exo_pin.dynamics.base_motion import Motion
 from exo_pin.dynamics.ground_forces import GroundForces
 from exo_pin.dynamics.weight_shift import double_supports, standing_feet
@@ -69,13 +69,14 @@ def _shared(gait: Gait, stance: Intervals, soles: Array, zmp: Array) -> tuple[Ar
     share = standing_feet(gait, stance).astype(float)
     target = np.repeat(np.nan_to_num(zmp)[:, None], len(FEET), axis=1)
     local = np.stack([_on_sole(soles[:, foot], target[:, foot]) for foot in range(len(FEET))], axis=1)
-    usual = _usual(share * (share.sum(axis=1, keepdims=True) == 1.0), local)
+    alone = (share > 0.0) & (share.sum(axis=1, keepdims=True) == 1.0)
+    usual = np.array([_usual(alone, local, foot) for foot in range(len(FEET))])
     time = gait.time - gait.time[0]
     for a, b, late in double_supports(gait, stance):
         rows = np.flatnonzero((time >= a) & (time <= b))
         if not len(rows):
             continue
-        anchor = np.array(usual)
+        anchor = usual.copy()
         if gait.periodic or a > _ENDS:
             anchor[1 - late] = local[rows[0], 1 - late]
         if gait.periodic or b < time[-1] - _ENDS:
@@ -90,16 +91,12 @@ def _shared(gait: Gait, stance: Intervals, soles: Array, zmp: Array) -> tuple[Ar
     return share, np.stack(point, axis=1)
 
 
-def _usual(alone: Array, local: Array) -> Array:
-    """`(2, 2)` place on each sole where the walk stands on that foot alone, else that of the other foot."""
-    mean = [local[alone[:, foot] > 0.0, foot] for foot in range(len(FEET))]
-    places = [x.mean(axis=0) if len(x) else None for x in mean]
-    middle = np.full(2, 0.5)
-    return np.array([places[k] if places[k] is not None else _first(places[1 - k], middle) for k in (0, 1)])
-
-
-def _first(place: Array | None, other: Array) -> Array:
-    return other if place is None else place
+def _usual(alone: Mask, local: Array, foot: int) -> Array:
+    """`(2,)` place on a sole where the walk stands on that foot alone, else on the other; else its middle."""
+    for k in (foot, 1 - foot):
+        if alone[:, k].any():
+            return np.asarray(local[alone[:, k], k].mean(axis=0))
+    return np.full(2, 0.5)
 
 
 def _axes(sole: Array) -> tuple[Array, Array, Array, Array]:
