@@ -57,7 +57,8 @@ def best_height(robot: Robot, feet: Array, base: Array) -> LegRoom:
     heights = float(robot.placement[2, 3]) * (1.0 - _DROPS)
     bases = np.tile(base, (len(heights), 1, 1, 1))
     bases[..., 2, 3] = heights[:, None]
-    found = [_leg_rooms(robot, foot, np.linalg.inv(bases) @ feet[:, k]) for k, foot in enumerate(FEET)]
+    back = np.linalg.inv(bases)
+    found = [_leg_rooms(robot, foot, back @ feet[:, k]) for k, foot in enumerate(FEET)]
     room = np.stack([leg.room for leg in found], axis=2)  # (heights, n, legs, joints)
     h = int(room.min(axis=(1, 2, 3)).argmax())
     sample, side, j = np.unravel_index(int(room[h].argmin()), room.shape[1:])
