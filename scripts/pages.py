@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
@@ -24,6 +24,12 @@ def rewrite(page: str, parts: Mapping[str, str]) -> None:
     """Replace the named parts of a page of docs/."""
     path = DOCS / page
     path.write_text(replaced(path.read_text(encoding="utf-8"), parts), encoding="utf-8")
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A Markdown table of rows under headings."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
 
 
 def usage(text: str | None) -> None:
