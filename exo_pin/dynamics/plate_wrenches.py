@@ -17,7 +17,8 @@ from exo_pin.dynamics.standing_under_load import NO_FOOT, check_standing
 from exo_pin.errors import GaitError
 from exo_pin.gait import Event, Gait
 from exo_pin.gait.trial import ForcePlate
-from exo_pin.ground import estimated_stance, lowest_corners, stance_from_events, standing
+from exo_pin.ground import lowest_corners
+from exo_pin.ground.stance import standing_at_samples
 from exo_pin.kinematics import PlateStep, events, poses
 from exo_pin.kinematics.plate_contacts import merged_events, step_events, steps_under
 from exo_pin.kinematics.sole_points import heels_and_balls
@@ -26,9 +27,6 @@ from exo_pin.robot import Robot
 _EDGE = 0.05
 """A foot that stands this little [s] before or after its plate is loaded is not standing beside it: events of
 kinematics are that uncertain."""
-
-_BEFORE_END = 1e-6
-"""The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +114,7 @@ def _standing_feet(gait: Gait, steps: Sequence[PlateStep], corners: Array, movin
     measured = step_events(gait, steps)
     check_event_times(moving, measured)
     walk = merged_events(gait, gait.events or moving, measured)
-    stance = stance_from_events(walk) or estimated_stance(gait, lowest_corners(corners))
-    time = gait.time - gait.time[0]
-    time = np.minimum(time, time[-1] - _BEFORE_END)
-    return np.stack([standing(stance, side, time) for side in SIDES], axis=1)
+    return standing_at_samples(walk, corners)
 
 
 def _loaded(steps: Sequence[PlateStep], time: Array) -> Mask:

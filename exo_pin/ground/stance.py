@@ -21,6 +21,9 @@ Intervals = Mapping[Side, tuple[tuple[float, float], ...]]
 _NEAR_GROUND = 0.010
 """A foot whose lowest corner is this close to the lower foot's is taken to stand as well [m] (a choice)."""
 
+_BEFORE_END = 1e-6
+"""The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
+
 
 def stance_from_events(gait: Gait) -> Intervals | None:
     """Stance of both feet from heel strikes and toe-offs, or None where the events do not tell."""
@@ -79,6 +82,18 @@ def standing(intervals: Intervals, side: Side, time: Array) -> Mask:
     for start, end in intervals[side]:
         inside |= (start <= moment) & (moment < end)
     return inside
+
+
+def standing_at_samples(gait: Gait, corners: Array) -> Mask:
+    """`(n, 2)` which foot stands at each sample, by the events, else by the heights of the soles.
+
+    Args:
+        gait: The walk; a foot that stands to its end stands at its last sample too.
+        corners: `(n, 8, 3)` positions of `CORNERS` [m].
+    """
+    stance = stance_from_events(gait) or estimated_stance(gait, lowest_corners(corners))
+    time = np.minimum(gait.time - gait.time[0], gait.duration - _BEFORE_END)
+    return np.stack([standing(stance, side, time) for side in SIDES], axis=1)
 
 
 def _runs(gait: Gait, contact: Mask) -> tuple[tuple[float, float], ...]:

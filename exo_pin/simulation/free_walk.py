@@ -12,7 +12,7 @@ from exo_pin.dynamics import Dynamics, generalized_forces, in_world_axes
 from exo_pin.dynamics.free_reaction import zero_moment_point
 from exo_pin.gait import Gait
 from exo_pin.gait.time_series import runs
-from exo_pin.ground import estimated_stance, lowest_corners, stance_from_events, standing
+from exo_pin.ground.stance import standing_at_samples
 from exo_pin.kinematics import poses
 from exo_pin.simulation.engine_forces import corner_forces
 from exo_pin.simulation.simulated_walk import SimulatedWalk
@@ -20,9 +20,6 @@ from exo_pin.walking import convex_hull, margin
 
 _LOADED = 20.0
 """A foot stands from this vertical force on [N]."""
-
-_BEFORE_END = 1e-6
-"""The last sample counts as this much earlier [s]: intervals that last to the end do not hold at it."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +63,7 @@ def zmp_margins(gait: Gait, required: Dynamics) -> Array:
     needed[:, 2] -= required.support_force
     zmp = zero_moment_point(required.motion.base, needed)
     corners = poses(required.robot, required.motion.q, CORNERS)[..., :3, 3]
-    stance = stance_from_events(gait) or estimated_stance(gait, lowest_corners(corners))
-    time = np.minimum(gait.time - gait.time[0], gait.duration - _BEFORE_END)
-    stands = np.stack([standing(stance, side, time) for side in SIDES], axis=1)
+    stands = standing_at_samples(gait, corners)
     soles = corners[..., :2].reshape(len(gait), len(FEET), -1, 2)
     return np.array(
         [
