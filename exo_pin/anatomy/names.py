@@ -5,6 +5,8 @@ Words from a closed vocabulary have a `Literal` type here, so that type checkers
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Literal, get_args
 
 from exo_pin.errors import UnknownNameError
@@ -88,6 +90,9 @@ HipRegression = Literal["davis", "harrington"]
 
 SIDES: tuple[Side, ...] = ("left", "right")
 """Both sides, in the order of every array that holds one entry a leg."""
+
+OTHER_SIDE: Mapping[Side, Side] = MappingProxyType({"left": "right", "right": "left"})
+"""Side -> the other one."""
 
 MOVEMENTS: tuple[Movement, ...] = (
     "hip_flexion",

@@ -9,11 +9,9 @@ from typing import Any
 from exo_pin.anatomy.anthropometry import BALL_FRACTION, HEEL_FRACTION
 from exo_pin.anatomy.body import Body, both_sides
 from exo_pin.anatomy.human import DEFAULT_MASS, DEFAULT_STATURE, usual_mass
-from exo_pin.anatomy.names import SIDES, Sex, Side, SizeOrigin
+from exo_pin.anatomy.names import OTHER_SIDE, SIDES, Sex, SizeOrigin
 from exo_pin.anatomy.person import LEG_PART, Measure, Person
 from exo_pin.anatomy.sizes import LEG_SIZES, SIZES
-
-_OTHER_SIDE: dict[Side, Side] = {"left": "right", "right": "left"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +91,9 @@ def _both_legs(sizes: Mapping[str, Measure]) -> dict[str, Measure]:
     out = dict(sizes)
     for side in SIDES:
         for name in LEG_SIZES:
-            other = sizes.get(f"{_OTHER_SIDE[side]}_{name}")
+            other = sizes.get(f"{OTHER_SIDE[side]}_{name}")
             if f"{side}_{name}" not in sizes and other is not None:
-                detail = f"as the {_OTHER_SIDE[side]} one" + (f": {other.detail}" if other.detail else "")
+                detail = f"as the {OTHER_SIDE[side]} one" + (f": {other.detail}" if other.detail else "")
                 out[f"{side}_{name}"] = other._replace(detail=detail)
     return out
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exo_pin.anatomy import SIDES, Body
-from exo_pin.anatomy.names import Side
+from exo_pin.anatomy.names import OTHER_SIDE, Side
 from exo_pin.arguments import count, number, word
 from exo_pin.arrays import Array
 from exo_pin.errors import GaitError
@@ -21,7 +21,6 @@ MOST_FOOTSTEPS = 1000
 
 _FURTHEST = 1000.0  # from the start of a walk [m]
 _MOST_TURN = 45.0  # of a step [deg]
-_OTHER: dict[Side, Side] = {"left": "right", "right": "left"}
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ class Footsteps:
         place = dict(zip(SIDES, self.start, strict=True))
         found = []
         for step in self.steps:
-            found.append(place[_OTHER[step.side]])
+            found.append(place[OTHER_SIDE[step.side]])
             place[step.side] = step
         return tuple(found)
 
@@ -174,7 +173,7 @@ def footsteps(
         if k < n:
             centre = _ahead(centre, length, turn)
         placed.append(_beside(centre, side, across))
-        side = _OTHER[side]
+        side = OTHER_SIDE[side]
     left, right = (_beside(np.zeros(3), foot, across) for foot in SIDES)
     return Footsteps((left, right), tuple(placed), step_time, double_support, clearance)
 
@@ -224,10 +223,10 @@ def _chained(walk: Footsteps, relative: Array) -> Footsteps:
     place = dict(zip(SIDES, walk.start, strict=True))
     steps = []
     for step, seen in zip(walk.steps, relative, strict=True):
-        place[step.side] = _placed(place[_OTHER[step.side]], step.side, seen)
+        place[step.side] = _placed(place[OTHER_SIDE[step.side]], step.side, seen)
         steps.append(place[step.side])
     return dataclasses.replace(walk, steps=tuple(steps))
 
 
 def _mirrored(foot: Footstep) -> Footstep:
-    return Footstep(_OTHER[foot.side], foot.x, -foot.y, -foot.heading)
+    return Footstep(OTHER_SIDE[foot.side], foot.x, -foot.y, -foot.heading)
