@@ -104,15 +104,6 @@ class Footsteps:
             place[step.side] = step
         return tuple(found)
 
-    def origins(self) -> tuple[Footstep, ...]:
-        """Where each step starts from: the place of the same foot before it."""
-        place = dict(zip(SIDES, self.start, strict=True))
-        found = []
-        for step in self.steps:
-            found.append(place[step.side])
-            place[step.side] = step
-        return tuple(found)
-
     def relative(self) -> Array:
         """`(steps, 3)` each step as the standing foot sees it: ahead, to the left [m], turned [rad]."""
         return np.array(
