@@ -17,6 +17,7 @@ from exo_pin.kinematics import center_of_mass
 from exo_pin.physics import GRAVITY
 from exo_pin.robot import Robot
 from exo_pin.robot.floating_base import base_coordinates
+from exo_pin.robot.gait_columns import gait_columns
 
 _FLEXIONS = [JOINTS.index(joint(side, "ankle_dorsiflexion")) for side in SIDES]
 _INVERSIONS = [JOINTS.index(joint(side, "ankle_inversion")) for side in SIDES]
@@ -77,9 +78,7 @@ class Stabiliser(Servo):
             return
         model = self._plan.robot
         self._model, self._data = model.model, model.model.createData()
-        names = [name for name in model.joints if name in JOINTS]
-        self._ours = [JOINTS.index(name) for name in names]
-        self._columns = [model.column(name) for name in names]
+        self._ours, self._columns = gait_columns(model.model, model.joints)
         self._dofs = [column - model.nq + model.model.nv for column in self._columns]
         self._position, self._rates = np.array(model.neutral), np.zeros(model.model.nv)
 
