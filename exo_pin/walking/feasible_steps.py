@@ -13,7 +13,7 @@ from exo_pin.walking.course import Course
 from exo_pin.walking.footsteps import Footsteps
 from exo_pin.walking.pelvis_height import LegRoom
 from exo_pin.walking.pendulum import time_constant
-from exo_pin.walking.schedule import step_at
+from exo_pin.walking.schedule import steps_at
 from exo_pin.walking.sole_shape import Soles, on_soles
 
 LEAST_GAP = 0.01
@@ -74,7 +74,7 @@ def check_feet_apart(walk: Footsteps, plan: Course, soles: Soles) -> None:
         gaps.append(other.min(axis=1) - own.max(axis=1))
     gap = np.maximum(*gaps)
     if gap.min() < LEAST_GAP:
-        step = np.array([step_at(plan.phases, t) for t in plan.time])
+        step = steps_at(plan.phases, plan.time)
         first = step[gap < LEAST_GAP][0]
         worst = int(np.where(step == first, gap, np.inf).argmin())
         raise GaitError(
@@ -133,5 +133,5 @@ def step_words(walk: Footsteps, plan: Course, sample: int) -> str:
         plan: Their course.
         sample: Of the course.
     """
-    k = step_at(plan.phases, float(plan.time[sample]))
+    k = int(steps_at(plan.phases, plan.time[sample : sample + 1])[0])
     return f"step {k + 1} ({walk.steps[k].side} foot)"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exo_pin.arrays import Array
+from exo_pin.arrays import Array, Index
 from exo_pin.gait import Event
 from exo_pin.walking.footsteps import Footsteps
 
@@ -105,8 +105,7 @@ def sampled(plan: tuple[Phase, ...], time: Array) -> list[PhaseSamples]:
     return out
 
 
-def step_at(plan: tuple[Phase, ...], time: float) -> int:
-    """The step that is taken at a time, or taken next; the last one after it."""
-    steps = [phase for phase in plan if phase.step is not None]
-    ends = [phase.end for phase in steps]
-    return min(int(np.searchsorted(ends, time)), len(ends) - 1)
+def steps_at(plan: tuple[Phase, ...], time: Array) -> Index:
+    """`(n,)` the step that is taken at each time, or taken next; the last one after it."""
+    ends = [phase.end for phase in plan if phase.step is not None]
+    return np.minimum(np.searchsorted(ends, time), len(ends) - 1)
